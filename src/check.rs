@@ -5,7 +5,7 @@
 //! use spring_mass_contact::chapter::lagrange;
 //!
 //! // A solver whose plane also pulls.
-//! let report = check(&problems(1, 5, &Family::ALL), &"1e-6".parse()?, |problem| {
+//! let report = check(&problems(1, 5, Family::ALL), &"1e-6".parse()?, |problem| {
 //!     let [u, n] = [lagrange::deflection(&problem.system), lagrange::multiplier(&problem.system)];
 //!     Ok::<_, std::convert::Infallible>(Reply::Answered(Box::new(Answer::new(u, n))))
 //! })?;
@@ -19,7 +19,10 @@
 mod assessment;
 mod condition;
 mod diagnosis;
+mod law;
 mod observation;
+mod output;
+mod precision;
 mod problems;
 mod program;
 #[cfg(test)]
@@ -30,9 +33,10 @@ use crate::number::{Exact, PositivePart};
 use crate::solver::State;
 pub use assessment::{Assessment, Verdict};
 pub use condition::{Condition, Quantity, Threshold};
+use diagnosis::{Cause, INFORMATIVE, Search};
 pub use diagnosis::{Diagnosis, DiagnosisScope};
-use diagnosis::{INFORMATIVE, Search, absolute_bounds};
 use observation::Observation;
+use output::absolute_bounds;
 pub use problems::{DIGITS, Family, Problem, UnknownFamily, problems};
 use std::collections::BTreeMap;
 
@@ -107,7 +111,7 @@ pub struct CaseResult {
 }
 
 /// Results for all problems.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Report {
     /// Results in the order of the problems: the first thousand of each family, and each that is worse than all before.
     pub results: Vec<CaseResult>,
@@ -198,85 +202,39 @@ pub fn check<E>(
     tolerance: &Exact,
     mut ask: impl FnMut(&Problem) -> Result<Reply, E>,
 ) -> Result<Report, E> {
-    let (mut results, mut tallies) = (Vec::new(), BTreeMap::<_, Tally>::new());
-    let mut given_up = false;
+    let mut report = Report::default();
     for (number, problem) in problems.iter().enumerate() {
-        let result = CaseResult::of(number, problem, ask(problem)?, tolerance);
-        if tallies.entry(problem.family).or_default().count(&result.assessment) {
-            results.push(result);
-        }
-        let is_silent = |of: &CaseResult| matches!(of.reply, Reply::Crashed(_) | Reply::TimedOut(_));
+        report.add(CaseResult::of(number, problem, ask(problem)?, tolerance));
         let is_last = number + 1 == problems.len();
-        given_up = !is_last && number + 1 == MAX_INITIAL_FAILURES && results.iter().all(is_silent);
-        if given_up {
-            break;
+        report.given_up = !is_last
+            && number + 1 == MAX_INITIAL_FAILURES
+            && report.results.iter().all(CaseResult::is_silent);
+        if report.given_up {
+            return Ok(report);
         }
     }
-    let again = if given_up { Vec::new() } else { repeated(&results) };
-    let mut changed = Vec::new();
-    for of in again.iter().copied() {
-        let first: &CaseResult = &results[of];
+    let again = repeated(&report.results);
+    report.repeated = again.len();
+    for of in again {
+        let first = &report.results[of];
         let reply = ask(&first.problem)?;
         if first.differs(&reply, tolerance) {
-            changed.push(Repetition { of, reply });
+            report.changed.push(Repetition { of, reply });
         }
     }
-    let answers: Vec<_> =
-        results.iter().enumerate().filter_map(|(i, result)| Observation::of(i, result, tolerance)).collect();
     let by_penalty = problems.iter().any(|problem| problem.penalty.is_some());
-    let found = diagnose(&answers, &Search::new(by_penalty, tolerance), changed.is_empty());
-    let (diagnosis, conditions, carried_over) = found;
-    let wrong: Vec<_> = answers.iter().filter(|given| given.wrong).collect();
-    let is_open = diagnosis.is_empty() && carried_over.is_empty() && changed.is_empty();
-    let absolute_bounds = if is_open { absolute_bounds(&wrong, tolerance) } else { Default::default() };
-    let diagnosis = diagnosis::lag(&answers).into_iter().chain(diagnosis).collect();
-    let repeated = again.len();
-    Ok(Report {
-        results,
-        tallies,
-        given_up,
-        repeated,
-        changed,
-        carried_over,
-        conditions,
-        absolute_bounds,
-        diagnosis,
-    })
-}
-
-/// Mistakes, conditions, and pairs of requests with the same answer.
-type Explained = (Vec<Diagnosis>, Vec<Condition>, Vec<[usize; 2]>);
-
-/// Returns what explains the answers, the conditions under which they are wrong, and those carried over.
-fn diagnose(answers: &[Observation], search: &Search, is_function: bool) -> Explained {
-    let all: Vec<_> = answers.iter().collect();
-    let (wrong, mut right): (Vec<_>, Vec<_>) = all.iter().partition(|given| given.wrong);
-    let mut found = search.of_all(&all);
-    if !found.is_empty() || wrong.len() < INFORMATIVE || !is_function {
-        return (found.into_iter().map(|found| found.diagnosis).collect(), Vec::new(), Vec::new());
-    }
-    found = search.of_wrong(&wrong);
-    // Where the mistake would give the same answer, it tells nothing.
-    right.retain(|given| !found.iter().any(|found| search.may_cause(found, given)));
-    let conditions = Condition::separating(&wrong, &right);
-    if conditions.is_empty() {
-        // A wrong decision needs no condition.
-        found.retain(|found| found.is_decision());
-    }
-    let carried_over = if found.is_empty() { carried_over(answers) } else { Vec::new() };
-    let conditions = if carried_over.is_empty() { conditions } else { Vec::new() };
-    let scope = DiagnosisScope::Wrong;
-    let diagnosis = found.into_iter().map(|found| Diagnosis { answers: scope, ..found.diagnosis });
-    (diagnosis.collect(), conditions, carried_over)
+    report.diagnose(&Search::new(by_penalty, tolerance), tolerance);
+    Ok(report)
 }
 
 /// Returns the wrong answers that are the right ones of an earlier request, by the numbers of both, if there
 /// are several.
 fn carried_over(answers: &[Observation]) -> Vec<[usize; 2]> {
     let mut all = Vec::new();
-    for (i, given) in answers.iter().enumerate().filter(|(_, given)| given.wrong) {
-        let is_same = |other: &&Observation| !other.wrong && other.numbers() == given.numbers();
-        all.extend(answers[..i].iter().rfind(is_same).map(|earlier| [given.index, earlier.index]));
+    for (i, answer) in answers.iter().enumerate().filter(|(_, answer)| answer.is_wrong()) {
+        let mut earlier = answers[..i].iter().rev().filter(|earlier| !earlier.is_wrong());
+        let same = earlier.find(|earlier| earlier.numbers() == answer.numbers());
+        all.extend(same.map(|earlier| [answer.index, earlier.index]));
     }
     if all.len() < INFORMATIVE { Vec::new() } else { all }
 }
@@ -287,10 +245,10 @@ const MAX_REPEATED: usize = 12;
 /// Returns the numbers of the results whose problems are asked again: evenly spaced, from both ends in turn,
 /// so that most come after others than before.
 fn repeated(results: &[CaseResult]) -> Vec<usize> {
-    let answered = |(_, result): &(usize, &CaseResult)| matches!(result.reply, Reply::Answered(_));
-    let answered: Vec<_> = results.iter().enumerate().filter(answered).map(|(i, _)| i).collect();
-    let chosen: Vec<_> =
-        answered.iter().copied().step_by(answered.len().div_ceil(MAX_REPEATED).max(1)).collect();
+    let answered: Vec<_> =
+        (0..results.len()).filter(|i| matches!(results[*i].reply, Reply::Answered(_))).collect();
+    let step = answered.len().div_ceil(MAX_REPEATED).max(1);
+    let chosen: Vec<_> = answered.into_iter().step_by(step).collect();
     let ends = chosen.iter().rev().zip(&chosen).flat_map(|(last, first)| [*last, *first]);
     ends.take(chosen.len()).collect()
 }
@@ -303,6 +261,11 @@ impl CaseResult {
             answer.steps = Vec::new();
         }
         CaseResult { number, problem: problem.clone(), reply, assessment }
+    }
+
+    /// Returns `true` if the solver did not reply.
+    fn is_silent(&self) -> bool {
+        matches!(self.reply, Reply::Crashed(_) | Reply::TimedOut(_))
     }
 
     /// Returns `true` if another reply to the same problem is no answer, or one that differs by more than the
@@ -319,6 +282,46 @@ impl CaseResult {
 }
 
 impl Report {
+    /// Counts a result, and keeps it unless there are many of its family.
+    fn add(&mut self, result: CaseResult) {
+        if self.tallies.entry(result.problem.family).or_default().count(&result.assessment) {
+            self.results.push(result);
+        }
+    }
+
+    /// Finds the causes of wrong answers, and the conditions under which they are wrong.
+    fn diagnose(&mut self, search: &Search, tolerance: &Exact) {
+        let results = self.results.iter().enumerate();
+        let answers: Vec<_> = results.filter_map(|(i, of)| Observation::of(i, of, tolerance)).collect();
+        self.diagnosis.extend(diagnosis::lag(&answers));
+        let all: Vec<_> = answers.iter().collect();
+        let causes = search.of_all(&all).into_iter();
+        let fitting: Vec<_> = causes.map(|cause| cause.diagnosis(DiagnosisScope::All, all.len())).collect();
+        let (wrong, mut right): (Vec<_>, Vec<_>) = all.iter().partition(|answer| answer.is_wrong());
+        if !fitting.is_empty() || wrong.len() < INFORMATIVE || !self.changed.is_empty() {
+            self.diagnosis.extend(fitting);
+            return;
+        }
+        let mut causes = search.of_wrong(&wrong);
+        // Where the mistake would give the same answer, it tells nothing.
+        right.retain(|answer| !causes.iter().any(|cause| search.may_cause(cause, answer)));
+        self.conditions = Condition::separating(&wrong, &right);
+        if self.conditions.is_empty() {
+            // A wrong decision needs no condition.
+            causes.retain(Cause::is_decision);
+        }
+        if causes.is_empty() {
+            self.carried_over = carried_over(&answers);
+            if self.carried_over.is_empty() {
+                self.absolute_bounds = absolute_bounds(&wrong, tolerance);
+            } else {
+                self.conditions.clear();
+            }
+        }
+        let scope = DiagnosisScope::Wrong;
+        self.diagnosis.extend(causes.into_iter().map(|cause| cause.diagnosis(scope, wrong.len())));
+    }
+
     /// Returns `true` if no answer is wrong and every family has a correct one. A refusal is not wrong, but a
     /// family without answers is not known to be right.
     pub fn holds(&self) -> bool {
@@ -346,16 +349,19 @@ impl Report {
 
     /// Returns the numbers of problems by verdict.
     pub fn summary(&self) -> Summary {
-        let of_family = |tally: &Tally, verdict| tally.counts.get(&verdict).copied().unwrap_or(0);
-        let count = |verdict| self.tallies.values().map(|tally| of_family(tally, verdict)).sum();
         Summary {
-            right: count(Verdict::Right),
-            within_tolerance: count(Verdict::WithinTolerance),
-            wrong: count(Verdict::Wrong),
-            refused: count(Verdict::Refused),
-            crashed: count(Verdict::Crashed),
-            timed_out: count(Verdict::TimedOut),
+            right: self.count(Verdict::Right),
+            within_tolerance: self.count(Verdict::WithinTolerance),
+            wrong: self.count(Verdict::Wrong),
+            refused: self.count(Verdict::Refused),
+            crashed: self.count(Verdict::Crashed),
+            timed_out: self.count(Verdict::TimedOut),
         }
+    }
+
+    /// Returns the number of problems with a verdict.
+    fn count(&self, verdict: Verdict) -> usize {
+        self.tallies.values().filter_map(|tally| tally.counts.get(&verdict)).sum()
     }
 
     /// Returns the results of each family.
@@ -392,10 +398,12 @@ impl Report {
 impl<'a> Row<'a> {
     fn of(family: Family, tally: &Tally, results: &'a [CaseResult]) -> Option<Self> {
         let (verdict, count) = tally.counts.last_key_value()?;
-        let with_it = |of: &&CaseResult| of.problem.family == family && of.assessment.verdict == *verdict;
-        // `max_by` returns the last of equal elements.
-        let worst = results.iter().rev().filter(with_it);
-        let worst = worst.max_by(|a, b| a.assessment.error().cmp(&b.assessment.error()))?;
+        // `max_by_key` returns the last of equal elements.
+        let bad = results
+            .iter()
+            .rev()
+            .filter(|result| result.problem.family == family && result.assessment.verdict == *verdict);
+        let worst = bad.max_by_key(|result| result.assessment.error())?;
         let [worst_deflection, worst_force] = tally.largest_errors.clone();
         let right = tally.counts.range(..=Verdict::WithinTolerance).map(|(_, count)| count).sum();
         let cases = tally.counts.values().sum();

@@ -47,8 +47,8 @@ formats!(Csv: "In rows", Json: "Numbers as strings");
 impl Selection {
     /// Returns the systems by families.
     pub fn problems(&self) -> Vec<Problem> {
-        let wanted = |family: &Family| self.families.is_empty() || self.families.contains(family);
-        let families: Vec<_> = Family::ALL.into_iter().filter(wanted).collect();
+        let mut families = Family::ALL.to_vec();
+        families.retain(|family| self.families.is_empty() || self.families.contains(family));
         problems(self.seed, self.cases, &families)
     }
 }

@@ -9,13 +9,14 @@ use super::program::right;
 use super::{Answer, Problem, Reply, Value};
 use crate::chapter::contact::{self, Kkt};
 use crate::chapter::{SpringMass, augmented, structure, system};
-use crate::number::{Ball, Exact, PositivePart, Real, ToExact};
+use crate::number::{Ball, Exact, PositivePart, ToExact};
 use crate::solver::{Method, Solution, State, solve};
 use num_traits::{One, Zero};
-use std::fmt;
+use strum::Display;
 
 /// Verdict on an answer, in increasing severity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Display)]
+#[strum(serialize_all = "snake_case")]
 pub enum Verdict {
     /// Within the rounding error of the formula in f64.
     Right,
@@ -29,20 +30,6 @@ pub enum Verdict {
     TimedOut,
     /// The solver terminated.
     Crashed,
-}
-
-/// Writes the name used in JSON.
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.pad(match self {
-            Verdict::Right => "right",
-            Verdict::WithinTolerance => "within_tolerance",
-            Verdict::Refused => "refused",
-            Verdict::Wrong => "wrong",
-            Verdict::TimedOut => "timed_out",
-            Verdict::Crashed => "crashed",
-        })
-    }
 }
 
 #[cfg(feature = "serde")]
@@ -86,30 +73,32 @@ impl Problem {
 
     /// Returns the problem with the parameters that the solver used, or the parameter that differs.
     fn as_used(&self, answer: &Answer, tolerance: &Exact) -> Result<Problem, String> {
-        // The signs are kept, since c, m and ε are positive.
-        let taken = |name: &str, asked: &Exact, used: &Option<Value>| match used {
-            None => Ok(asked.clone()),
-            Some(Some(used))
-                if (used - asked).abs() <= tolerance * asked.abs()
-                    && used.cmp(&Exact::zero()) == asked.cmp(&Exact::zero()) =>
-            {
-                Ok(used.clone())
-            }
-            Some(Some(used)) => {
-                Err(format!("it used {name} = {} instead of {}", format_short(used), format_short(asked)))
-            }
-            Some(None) => {
-                Err(format!("it used a value for {name} = {} that is not a number", format_short(asked)))
-            }
-        };
         let asked = SpringMass::KEYS.zip(self.system.as_ref());
         let system = asked.zip(answer.used.system.as_ref());
-        let system = system.try_map(|((key, asked), used)| taken(key, asked, used))?;
-        let penalty = match &self.penalty {
-            None => None,
-            Some(asked) => Some(taken("penalty", asked, &answer.used.penalty)?),
-        };
-        Ok(Problem { system, penalty, ..self.clone() })
+        let system = system.try_map(|((key, asked), used)| value_used(key, asked, used, tolerance))?;
+        let penalty = self.penalty.as_ref();
+        let penalty = penalty.map(|asked| value_used("penalty", asked, &answer.used.penalty, tolerance));
+        Ok(Problem { system, penalty: penalty.transpose()?, ..self.clone() })
+    }
+}
+
+/// Returns the value of a parameter that the solver used, if it is near the requested one.
+fn value_used(name: &str, asked: &Exact, used: &Option<Value>, tolerance: &Exact) -> Result<Exact, String> {
+    let zero = Exact::zero();
+    match used {
+        None => Ok(asked.clone()),
+        // The signs are kept, since c, m and ε are positive.
+        Some(Some(used))
+            if (used - asked).abs() <= tolerance * asked.abs() && used.cmp(&zero) == asked.cmp(&zero) =>
+        {
+            Ok(used.clone())
+        }
+        Some(Some(used)) => {
+            Err(format!("it used {name} = {} instead of {}", format_short(used), format_short(asked)))
+        }
+        Some(None) => {
+            Err(format!("it used a value for {name} = {} that is not a number", format_short(asked)))
+        }
     }
 }
 
@@ -127,16 +116,28 @@ pub(super) fn scales(system: &SpringMass<Exact>) -> [Exact; 2] {
     scales.map(|scale| if scale.is_zero() { Exact::one() } else { scale })
 }
 
-/// Returns a system in balls around floats, if it is in range; `like` determines the precision.
-pub(super) fn balls<T: Real + ToExact>(like: &T, system: &SpringMass<Exact>) -> Option<SpringMass<Ball<T>>> {
-    system.try_map(|x| Ball::enclosing(like, x)).ok()
+/// Returns the ball around the float of a number, if it is in range.
+pub(super) fn ball(x: &Exact) -> Option<Ball<f64>> {
+    Ball::enclosing(&0f64, x).ok()
 }
 
-/// Returns enclosures of the float results of the formulas for u and N, if the parameters are in range;
-/// `like` determines the precision.
-pub(super) fn rounded<T: Real + ToExact>(like: &T, problem: &Problem) -> Option<[Ball<T>; 2]> {
-    let penalty = problem.penalty.as_ref().map(|eps| Ball::enclosing(like, eps)).transpose().ok()?;
-    Some(right(&balls(like, &problem.system)?, penalty.as_ref()))
+/// Returns enclosures of the float results of the formulas for u and N. A ball larger than the system itself
+/// explains nothing.
+pub(super) fn rounded(problem: &Problem) -> [Option<Ball<f64>>; 2] {
+    let sizes = sizes(&problem.system);
+    let penalty = problem.penalty.as_ref().map(ball);
+    let balls = match (balls(&problem.system), penalty) {
+        (Some(system), None) => right(&system, None).map(Some),
+        (Some(system), Some(Some(eps))) => right(&system, Some(&eps)).map(Some),
+        _ => [None, None],
+    };
+    let [u, n] = balls;
+    [u.filter(|ball| is_within(ball, &sizes[0])), n.filter(|ball| is_within(ball, &sizes[1]))]
+}
+
+/// Returns a system in balls around floats, if it is in range.
+pub(super) fn balls(system: &SpringMass<Exact>) -> Option<SpringMass<Ball<f64>>> {
+    system.try_map(|x| ball(x).ok_or(())).ok()
 }
 
 /// Returns the sum of the lengths of a system, in m, and that of its forces, in N.
@@ -144,13 +145,6 @@ pub(super) fn sizes(system: &SpringMass<Exact>) -> [Exact; 2] {
     let [_, weight] = scales(system);
     let lengths = system.l.abs() + system.h.abs();
     [&lengths + structure::deflection(system).abs(), weight + &system.c * lengths]
-}
-
-/// Returns `true` if a number is within the rounding error of a formula. A ball larger than the system itself
-/// explains nothing.
-pub(super) fn is_within<T: Real + ToExact>(ball: &Ball<T>, x: &Exact, size: &Exact) -> bool {
-    let radius = ball.radius().to_exact();
-    radius.is_ok_and(|radius| radius <= *size) && ball.contains(x)
 }
 
 /// Returns `true` if both numbers are equal or round to the same f64. This accepts the exact solution rounded
@@ -168,7 +162,17 @@ pub(super) fn fit(tolerance: &Exact) -> Exact {
 
 impl Assessment {
     pub(super) fn of(problem: &Problem, reply: &Reply, tolerance: &Exact) -> Self {
-        let without_numbers = |verdict, finding: &str| Assessment {
+        let (verdict, finding) = match reply {
+            Reply::Answered(answer) => match problem.as_used(answer, tolerance) {
+                Ok(solved) => return Assessment::of_answer(solved, answer, tolerance),
+                Err(finding) => (Verdict::Wrong, finding),
+            },
+            Reply::Refused(reason) => (Verdict::Refused, reason.clone()),
+            Reply::InvalidResponse(reason) => (Verdict::Wrong, reason.clone()),
+            Reply::Crashed(output) => (Verdict::Crashed, output.clone()),
+            Reply::TimedOut(output) => (Verdict::TimedOut, format!("no answer in time; {output}")),
+        };
+        Assessment {
             verdict,
             exact: problem.solution(),
             has_right_numbers: false,
@@ -176,20 +180,8 @@ impl Assessment {
             deflection_error: None,
             force_error: None,
             kkt: None,
-            finding: Some(finding.to_string()),
+            finding: Some(finding),
             lags: None,
-        };
-        match reply {
-            Reply::Answered(answer) => match problem.as_used(answer, tolerance) {
-                Ok(solved) => Assessment::of_answer(solved, answer, tolerance),
-                Err(finding) => without_numbers(Verdict::Wrong, &finding),
-            },
-            Reply::Refused(reason) => without_numbers(Verdict::Refused, reason),
-            Reply::InvalidResponse(reason) => without_numbers(Verdict::Wrong, reason),
-            Reply::Crashed(how) => without_numbers(Verdict::Crashed, how),
-            Reply::TimedOut(seen) => {
-                without_numbers(Verdict::TimedOut, &format!("no answer in time; {seen}"))
-            }
         }
     }
 
@@ -197,42 +189,31 @@ impl Assessment {
         let exact = problem.solution();
         let numbers = [&answer.deflection, &answer.contact_force];
         let expected = [&exact.deflection, &exact.contact_force];
-        let scales = scales(&problem.system);
-        let error = |i: usize| numbers[i].as_ref().map(|x| (x - expected[i]).abs() / &scales[i]);
-        let errors = [error(0), error(1)];
-        let near = |error: &Option<Exact>| error.as_ref().is_some_and(|error| error <= tolerance);
-        let (balls, sizes) = (rounded(&0f64, &problem), sizes(&problem.system));
-        let to_rounding = |i: usize| match (&balls, numbers[i]) {
-            (Some(balls), Some(x)) => is_within(&balls[i], x, &sizes[i]),
-            _ => false,
-        };
-        // An answer with a larger error is not accepted, whatever explains it.
-        let useful = |i: usize| errors[i].as_ref().is_some_and(|error| *error <= fit(tolerance));
-        let right = |i: usize| {
-            to_rounding(i) && useful(i) || numbers[i].as_ref().is_some_and(|x| rounds_alike(x, expected[i]))
-        };
-        let well = errors.iter().enumerate().all(|(i, error)| near(error) || right(i));
-        let finding = if well {
+        let (scales, balls) = (scales(&problem.system), rounded(&problem));
+        let both = [0, 1].map(|i| match numbers[i] {
+            None => Comparison::default(),
+            Some(own) => Comparison::of(own, expected[i], balls[i].as_ref(), &scales[i], tolerance),
+        });
+        let has_right_numbers = both.iter().all(|number| number.is_near || number.is_right);
+        let finding = if has_right_numbers {
             penetrates_otherwise(&problem, &exact, answer, tolerance)
+        } else if both.iter().all(|number| number.is_near || number.is_rounded) {
+            Some("within the rounding error of f64".to_string())
         } else {
-            let state = || wrong_state(numbers, exact.state, &errors, tolerance, &scales);
-            let rounding = (0..2).all(|i| near(&errors[i]) || to_rounding(i));
-            let rounding = rounding.then(|| "within the rounding error of f64".to_string());
-            rounding.or_else(state)
+            wrong_state(numbers, exact.state, both[1].is_near, &(tolerance * &scales[1]))
         };
-        let verdict = match (well, &finding) {
-            (true, None) if right(0) && right(1) => Verdict::Right,
-            (true, None) => Verdict::WithinTolerance,
+        let verdict = match finding {
+            None if both.iter().all(|number| number.is_right) => Verdict::Right,
+            None if has_right_numbers => Verdict::WithinTolerance,
             _ => Verdict::Wrong,
         };
         let kkt = match numbers {
             [Some(u), Some(n)] => Some(contact::kkt(&problem.system, u, n)),
             _ => None,
         };
-        let [deflection_error, force_error] = errors;
+        let [deflection_error, force_error] = both.map(|number| number.error);
         let lags = lags(&problem.system, &answer.steps, &fit(tolerance));
         let solved = Some(problem);
-        let has_right_numbers = well;
         Assessment {
             verdict,
             exact,
@@ -252,6 +233,30 @@ impl Assessment {
     }
 }
 
+/// Comparison of a number with the exact one.
+#[derive(Default)]
+struct Comparison {
+    error: Option<Exact>,
+    is_near: bool,
+    is_rounded: bool,
+    is_right: bool,
+}
+
+impl Comparison {
+    fn of(own: &Exact, exact: &Exact, ball: Option<&Ball<f64>>, scale: &Exact, tolerance: &Exact) -> Self {
+        let error = (own - exact).abs() / scale;
+        let is_rounded = ball.is_some_and(|ball| ball.contains(own));
+        // An answer with a larger error is not accepted, whatever explains it.
+        let is_right = is_rounded && error <= fit(tolerance) || rounds_alike(own, exact);
+        Comparison { is_near: error <= *tolerance, is_rounded, is_right, error: Some(error) }
+    }
+}
+
+/// Returns `true` if the radius of a ball is at most a size.
+pub(super) fn is_within(ball: &Ball<f64>, size: &Exact) -> bool {
+    ball.radius().to_exact().is_ok_and(|radius| radius <= *size)
+}
+
 /// Describes a penetration that differs from that of the deflection.
 fn penetrates_otherwise(
     problem: &Problem,
@@ -259,65 +264,62 @@ fn penetrates_otherwise(
     answer: &Answer,
     tolerance: &Exact,
 ) -> Option<String> {
-    let said = answer.penetration.as_ref()?;
-    let Some(p) = said else { return Some("its penetration is not a number".to_string()) };
+    let Some(p) = answer.penetration.as_ref()? else {
+        return Some("its penetration is not a number".to_string());
+    };
     let u = answer.deflection.as_ref()?;
-    let own = contact::penetration(&problem.system, u);
-    let rounded = balls(&0f64, &problem.system).zip(Ball::enclosing(&0f64, u).ok());
-    let rounded = rounded.map(|(system, u)| contact::penetration(&system, &u));
+    let expected = contact::penetration(&problem.system, u);
+    let rounded = balls(&problem.system).zip(ball(u)).map(|(system, u)| contact::penetration(&system, &u));
     let [length, _] = scales(&problem.system);
     let rounded_once = rounds_alike(u, &exact.deflection) && rounds_alike(p, &exact.penetration);
-    let near = (p - &own).abs() <= tolerance * length;
-    let explained = near || rounded_once || rounded.is_some_and(|ball| ball.contains(p));
-    (!explained).then(|| {
-        format!(
-            "its penetration is {}, but that of its deflection is {}",
-            format_short(p),
-            format_short(&own)
-        )
-    })
+    let is_near = (p - &expected).abs() <= tolerance * length;
+    let is_right = is_near || rounded_once || rounded.is_some_and(|ball| ball.contains(p));
+    let [p, expected] = [p, &expected].map(format_short);
+    (!is_right).then(|| format!("its penetration is {p}, but that of its deflection is {expected}"))
 }
 
 /// Describes missing numbers or a wrong state.
 fn wrong_state(
     numbers: [&Value; 2],
-    state: State,
-    errors: &[Option<Exact>; 2],
+    exact: State,
+    has_right_force: bool,
     tolerance: &Exact,
-    scales: &[Exact; 2],
 ) -> Option<String> {
-    let [Some(_), Some(n)] = numbers else {
-        let missing = if numbers[0].is_none() { "its deflection" } else { "its contact force" };
-        return Some(format!("{missing} is not a number"));
+    let n = match numbers {
+        [Some(_), Some(n)] => n,
+        [None, _] => return Some("its deflection is not a number".to_string()),
+        _ => return Some("its contact force is not a number".to_string()),
     };
-    let small = tolerance * &scales[1];
-    let far = errors[1].as_ref().is_some_and(|error| error > tolerance);
-    let said = if *n > small {
+    let answered = if *n > *tolerance {
         "the plane pushes"
-    } else if *n < -small {
+    } else if *n < -tolerance {
         "the plane pulls"
     } else {
         "the mass is separated"
     };
-    let is = match state {
+    let expected = match exact {
         State::Contact => "the plane pushes",
         State::Grazing => "they touch without force",
         State::Separated => "the mass is separated",
     };
-    (far && said != is).then(|| format!("according to its answer {said}; exactly, {is}"))
+    let is_wrong = !has_right_force && answered != expected;
+    is_wrong.then(|| format!("according to its answer {answered}; exactly, {expected}"))
 }
 
 /// Returns whether the force of each step is that of the previous step. The initial state is not a step, so
 /// one step does not decide it.
 fn lags(system: &SpringMass<Exact>, steps: &[[Value; 2]], tolerance: &Exact) -> Option<bool> {
     let [_, scale] = scales(system);
-    let near =
-        |force: &Exact, u: &Exact| (force - augmented::contact_force(system, u)).abs() <= tolerance * &scale;
-    let pairs = steps.windows(2).filter_map(|pair| match pair {
-        [[Some(u), Some(own)], [_, Some(next)]] => Some((near(own, u), near(next, u))),
-        _ => None,
-    });
-    // If both forces are close, the steps cannot be distinguished.
-    let telling = Vec::from_iter(pairs.filter(|(own, next)| !(*own && *next)));
-    (telling.len() >= 2).then(|| telling.iter().all(|(_, next)| *next))
+    let tolerance = tolerance * scale;
+    let mut is_behind = Vec::new();
+    for pair in steps.windows(2) {
+        let [[Some(u), Some(own)], [_, Some(next)]] = pair else { continue };
+        let expected = augmented::contact_force(system, u);
+        let [own, next] = [own, next].map(|force| (force - &expected).abs() <= tolerance);
+        // If both forces are close, the steps cannot be distinguished.
+        if !(own && next) {
+            is_behind.push(next);
+        }
+    }
+    (is_behind.len() >= 2).then(|| is_behind.into_iter().all(|next| next))
 }

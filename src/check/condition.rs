@@ -5,10 +5,11 @@ use crate::chapter::{structure, system};
 use crate::number::{Exact, PositivePart};
 use crate::solver::State;
 use num_traits::Zero;
-use std::fmt;
+use strum::{Display, VariantArray};
 
 /// A quantity of a system, or of its place in the session.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Display, VariantArray)]
+#[strum(serialize_all = "snake_case")]
 pub enum Quantity {
     /// |R|/c, in m: the distance between the plane and the mass without the plane.
     Penetration,
@@ -38,81 +39,67 @@ pub enum Quantity {
     Position,
 }
 
-/// Name in JSON, name in text, and unit.
-type Names = (&'static str, &'static str, &'static str);
-
 impl Quantity {
     /// All quantities.
-    pub const ALL: [Quantity; 12] = [
-        Quantity::Penetration,
-        Quantity::Force,
-        Quantity::ForceByWeight,
-        Quantity::PenetrationByHeight,
-        Quantity::Gap,
-        Quantity::Stiffness,
-        Quantity::Mass,
-        Quantity::Gravity,
-        Quantity::FreeLength,
-        Quantity::Height,
-        Quantity::Deflection,
-        Quantity::Position,
-    ];
+    pub const ALL: &[Quantity] = Quantity::VARIANTS;
 
-    fn names(self) -> Names {
+    fn symbol_and_unit(self) -> (&'static str, &'static str) {
         match self {
-            Quantity::Penetration => ("penetration", "|R|/c", " m"),
-            Quantity::Force => ("force", "|R|", " N"),
-            Quantity::ForceByWeight => ("force_by_weight", "|R|", " |m g|"),
-            Quantity::PenetrationByHeight => ("penetration_by_height", "|R|/c", " |H|"),
-            Quantity::Gap => ("gap", "H − l", " m"),
-            Quantity::Stiffness => ("stiffness", "c", " N/m"),
-            Quantity::Mass => ("mass", "m", " kg"),
-            Quantity::Gravity => ("gravity", "g", " m/s²"),
-            Quantity::FreeLength => ("free_length", "l", " m"),
-            Quantity::Height => ("height", "H", " m"),
-            Quantity::Deflection => ("deflection", "|u|", " m"),
-            Quantity::Position => ("position", "the number of earlier requests", ""),
+            Quantity::Penetration => ("|R|/c", " m"),
+            Quantity::Force => ("|R|", " N"),
+            Quantity::ForceByWeight => ("|R|", " |m g|"),
+            Quantity::PenetrationByHeight => ("|R|/c", " |H|"),
+            Quantity::Gap => ("H − l", " m"),
+            Quantity::Stiffness => ("c", " N/m"),
+            Quantity::Mass => ("m", " kg"),
+            Quantity::Gravity => ("g", " m/s²"),
+            Quantity::FreeLength => ("l", " m"),
+            Quantity::Height => ("H", " m"),
+            Quantity::Deflection => ("|u|", " m"),
+            Quantity::Position => ("the number of earlier requests", ""),
         }
     }
 
     /// Returns its symbol.
     pub fn symbol(self) -> &'static str {
-        self.names().1
+        self.symbol_and_unit().0
     }
 
     /// Returns its unit after a space; empty for a number.
     pub fn unit(self) -> &'static str {
-        self.names().2
+        self.symbol_and_unit().1
+    }
+
+    /// Returns its values for all systems; `None` if one has no value.
+    fn values(self, all: &[&Observation]) -> Option<Vec<Exact>> {
+        all.iter().map(|answer| self.value(answer)).collect()
     }
 
     /// Returns its value for a system; `None` if the reference is zero.
-    fn value(self, given: &Observation) -> Option<Exact> {
-        let system = &given.problem.system;
+    fn value(self, answer: &Observation) -> Option<Exact> {
+        let system = &answer.problem.system;
         let force = system::reaction(system).abs();
         let through = (structure::deflection(system) - system::gap(system)).abs();
-        let part = |value: Exact, unit: Exact| (!unit.is_zero()).then(|| value / unit.abs());
         match self {
             Quantity::Penetration => Some(through),
             Quantity::Force => Some(force),
-            Quantity::ForceByWeight => part(force, system::weight(system)),
-            Quantity::PenetrationByHeight => part(through, system.h.clone()),
+            Quantity::ForceByWeight => relative(force, &system::weight(system)),
+            Quantity::PenetrationByHeight => relative(through, &system.h),
             Quantity::Gap => Some(system::gap(system)),
             Quantity::Stiffness => Some(system.c.clone()),
             Quantity::Mass => Some(system.m.clone()),
             Quantity::Gravity => Some(system.g.clone()),
             Quantity::FreeLength => Some(system.l.clone()),
             Quantity::Height => Some(system.h.clone()),
-            Quantity::Deflection => Some(given.exact[0].abs()),
-            Quantity::Position => Some(Exact::from(given.position as i32)),
+            Quantity::Deflection => Some(answer.exact(0).abs()),
+            Quantity::Position => Some(Exact::from(answer.result.number as i32)),
         }
     }
 }
 
-/// Writes the name used in JSON.
-impl fmt::Display for Quantity {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.pad(self.names().0)
-    }
+/// Returns a quotient of sizes, unless it divides by zero.
+fn relative(value: Exact, unit: &Exact) -> Option<Exact> {
+    if unit.is_zero() { None } else { Some(value / unit.abs()) }
 }
 
 #[cfg(feature = "serde")]
@@ -158,12 +145,12 @@ impl Condition {
                 .collect();
         }
         // The state may be any one close to grazing.
-        let mut states = wrong.iter().filter_map(|given| given.state);
+        let mut states = wrong.iter().filter_map(|answer| answer.state);
         let Some(first) = states.next().filter(|first| states.all(|state| state == *first)) else {
             return Vec::new();
         };
         let state = Some(first);
-        let alike: Vec<_> = right.iter().copied().filter(|given| given.state == state).collect();
+        let alike: Vec<_> = right.iter().copied().filter(|answer| answer.state == state).collect();
         if alike.is_empty() && combinations(wrong.len(), wrong.len() + right.len()) == MIN_COMBINATIONS {
             return vec![Condition { state, threshold: None }];
         }
@@ -178,16 +165,14 @@ impl Threshold {
         if combinations(wrong.len(), wrong.len() + right.len()) < MIN_COMBINATIONS {
             return Vec::new();
         }
-        let found = Quantity::ALL.into_iter().filter_map(|quantity| Threshold::of(quantity, wrong, right));
+        let found = Quantity::ALL.iter().filter_map(|quantity| Threshold::of(*quantity, wrong, right));
         let mut found: Vec<_> = found.collect();
         found.sort_by_key(|found| std::cmp::Reverse(found.gap()));
         found
     }
 
     fn of(quantity: Quantity, wrong: &[&Observation], right: &[&Observation]) -> Option<Self> {
-        let values =
-            |all: &[&Observation]| all.iter().map(|given| quantity.value(given)).collect::<Option<Vec<_>>>();
-        let (bad, good) = (values(wrong)?, values(right)?);
+        let (bad, good) = (quantity.values(wrong)?, quantity.values(right)?);
         let below = (bad.iter().max()?, good.iter().min()?);
         let above = (bad.iter().min()?, good.iter().max()?);
         let (wrong, right) = if below.0 < below.1 { below } else { above };

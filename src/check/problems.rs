@@ -9,8 +9,7 @@ use crate::number::{Exact, PositivePart};
 use num_traits::{One, Zero};
 use oorandom::Rand64;
 use rug::float::Round;
-use std::fmt;
-use std::str::FromStr;
+use strum::{Display, EnumString, IntoStaticStr, VariantArray};
 
 /// Largest number of significant decimal digits of a parameter, since some parsers read only short fields.
 pub const DIGITS: usize = 12;
@@ -23,7 +22,10 @@ const E24: [i32; 24] =
     [10, 11, 12, 13, 15, 16, 18, 20, 22, 24, 27, 30, 33, 36, 39, 43, 47, 51, 56, 62, 68, 75, 82, 91];
 
 /// Family of test systems.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Display, EnumString, IntoStaticStr, VariantArray,
+)]
+#[strum(serialize_all = "snake_case", parse_err_ty = UnknownFamily, parse_err_fn = unknown_family)]
 pub enum Family {
     /// Ordinary systems in contact.
     Contact,
@@ -59,22 +61,7 @@ pub enum Family {
 
 impl Family {
     /// All families.
-    pub const ALL: [Family; 14] = [
-        Family::Contact,
-        Family::Separated,
-        Family::Grazing,
-        Family::Near,
-        Family::Overlap,
-        Family::Lifted,
-        Family::Stiff,
-        Family::Soft,
-        Family::Far,
-        Family::Huge,
-        Family::Tiny,
-        Family::Graded,
-        Family::Signed,
-        Family::Neighbour,
-    ];
+    pub const ALL: &[Family] = Family::VARIANTS;
 
     /// Returns its number of systems relative to other families.
     fn multiplicity(self) -> u64 {
@@ -87,41 +74,17 @@ impl Family {
 
     /// Returns its name on the command line and in JSON.
     pub fn name(self) -> &'static str {
-        match self {
-            Family::Contact => "contact",
-            Family::Separated => "separated",
-            Family::Grazing => "grazing",
-            Family::Near => "near",
-            Family::Overlap => "overlap",
-            Family::Lifted => "lifted",
-            Family::Stiff => "stiff",
-            Family::Soft => "soft",
-            Family::Far => "far",
-            Family::Huge => "huge",
-            Family::Tiny => "tiny",
-            Family::Graded => "graded",
-            Family::Signed => "signed",
-            Family::Neighbour => "neighbour",
-        }
-    }
-}
-
-impl fmt::Display for Family {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.pad(self.name())
+        self.into()
     }
 }
 
 /// Error for an unknown family name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("[possible values: {}]", Family::ALL.map(Family::name).join(", "))]
+#[error("[possible values: {}]", Family::ALL.iter().copied().map(Family::name).collect::<Vec<_>>().join(", "))]
 pub struct UnknownFamily;
 
-impl FromStr for Family {
-    type Err = UnknownFamily;
-    fn from_str(text: &str) -> Result<Self, UnknownFamily> {
-        Family::ALL.into_iter().find(|family| family.name() == text).ok_or(UnknownFamily)
-    }
+fn unknown_family(_: &str) -> UnknownFamily {
+    UnknownFamily
 }
 
 #[cfg(feature = "serde")]
@@ -153,17 +116,14 @@ pub struct Problem {
 /// assert!(grazing.iter().all(|problem| State::of(&problem.system) == Ok(State::Grazing)));
 /// ```
 pub fn problems(seed: u64, cases: u64, families: &[Family]) -> Vec<Problem> {
-    let numbered = |family: &Family| {
-        let count = cases * family.multiplicity();
-        (1..=count).map(|number| (*family, number)).collect::<Vec<_>>()
-    };
-    let problem = |(family, number): (Family, u64)| Problem {
-        id: format!("{family}-{number}"),
-        family,
-        system: Draw::new(seed, family, number).system(),
-        penalty: None,
-    };
-    families.iter().flat_map(numbered).map(problem).collect()
+    let mut all = Vec::new();
+    for family in families.iter().copied() {
+        for number in 1..=cases * family.multiplicity() {
+            let system = Draw::new(seed, family, number).system();
+            all.push(Problem { id: format!("{family}-{number}"), family, system, penalty: None });
+        }
+    }
+    all
 }
 
 /// mantissa × 10^exponent
@@ -229,77 +189,73 @@ impl Draw {
 
     fn system(mut self) -> SpringMass<Exact> {
         match self.family {
-            Family::Contact => {
-                let part = self.inside();
-                self.ordinary([1, 3], part)
-            }
-            Family::Separated => {
-                let part = self.beyond();
-                self.ordinary([1, 3], part)
-            }
-            Family::Overlap => {
-                let part = -self.part();
-                self.ordinary([1, 3], part)
-            }
-            Family::Lifted => {
-                // The mass rises until the spring holds it; contact requires a higher plane.
-                let part = Exact::from(1) / self.part();
-                let above = self.number % 2 == 1 || self.between(0, 3) < 3;
-                let part = if above { -part } else { part };
-                let SpringMass { c, m, g, l, h } = self.ordinary([1, 3], part);
-                SpringMass { c, m, g: -g, l, h }
-            }
-            Family::Stiff => {
-                let part = self.part();
-                let l = if self.between(0, 3) == 0 { Exact::zero() } else { self.decades(-1, 0) };
-                let (c, m, g) = (self.decades(7, 9), self.decades(0, 1), self.decades(0, 1));
-                let system = hung(c.clone(), m.clone(), g.clone(), l, &part);
-                // In f64 the difference of long lengths would be off by more than the tolerance.
-                let [scale, _] = scales(&system);
-                let rounding = (system.l.abs() + system.h.abs()) * Exact::power_of_two(-53);
-                if rounding > decimal(9, -7) * scale { hung(c, m, g, Exact::zero(), &part) } else { system }
-            }
-            Family::Soft => {
-                let part = self.part();
-                self.ordinary([-4, -2], part)
-            }
-            Family::Far => {
-                let part = self.part();
-                let l = self.decades(3, 5);
-                let l = if self.between(0, 3) == 0 { -l } else { l };
-                // The free deflection is at most one metre, and the plane at most four metres below the
-                // support.
-                let (c, m, g) = (self.decades(2, 2), self.decades(-1, 0), self.decades(0, 0));
-                hung(c, m, g, l, &part)
-            }
+            Family::Contact => self.ordinary([1, 3], Draw::inside),
+            Family::Separated => self.ordinary([1, 3], Draw::beyond),
+            Family::Overlap => self.ordinary([1, 3], |draw| -draw.part()),
+            Family::Soft => self.ordinary([-4, -2], Draw::part),
+            Family::Lifted => self.lifted(),
+            Family::Stiff => self.stiff(),
+            Family::Far => self.far(),
             Family::Huge => self.sized(6, 13),
             Family::Tiny => self.sized(-14, -7),
             Family::Grazing => self.grazing(),
+            Family::Near => self.near(),
             Family::Graded => self.graded(),
             Family::Signed => self.signed(),
             Family::Neighbour => self.neighbour(),
-            Family::Near => {
-                let mut system = self.grazing();
-                let SpringMass { c, m, g, l: _, h } = &mut system;
-                let near = match self.between(0, 3) {
-                    0 => c,
-                    1 => m,
-                    2 => g,
-                    _ => h,
-                };
-                let unit = last_digit(near);
-                *near = if self.number % 2 == 1 { &*near + unit } else { &*near - unit };
-                system
-            }
         }
     }
 
-    /// Returns an ordinary system except for its stiffness.
-    fn ordinary(&mut self, stiffness: [i32; 2], part: Exact) -> SpringMass<Exact> {
-        let [low, high] = stiffness;
+    /// Returns an ordinary system except for its stiffness. The gap relative to the free deflection is drawn first.
+    fn ordinary(&mut self, [low, high]: [i32; 2], part: fn(&mut Self) -> Exact) -> SpringMass<Exact> {
+        let part = part(self);
         let (c, m, g, l) =
             (self.decades(low, high), self.decades(-1, 0), self.decades(0, 0), self.decades(-1, 0));
         hung(c, m, g, l, &part)
+    }
+
+    /// The mass rises until the spring holds it; contact requires a higher plane.
+    fn lifted(&mut self) -> SpringMass<Exact> {
+        let SpringMass { c, m, g, l, h } = self.ordinary([1, 3], |draw| {
+            let part = Exact::from(1) / draw.part();
+            if draw.number % 2 == 1 || draw.between(0, 3) < 3 { -part } else { part }
+        });
+        SpringMass { c, m, g: -g, l, h }
+    }
+
+    fn stiff(&mut self) -> SpringMass<Exact> {
+        let part = self.part();
+        let l = if self.between(0, 3) == 0 { Exact::zero() } else { self.decades(-1, 0) };
+        let (c, m, g) = (self.decades(7, 9), self.decades(0, 1), self.decades(0, 1));
+        let system = hung(c.clone(), m.clone(), g.clone(), l, &part);
+        // In f64 the difference of long lengths would be off by more than the tolerance.
+        let [scale, _] = scales(&system);
+        let rounding = (system.l.abs() + system.h.abs()) * Exact::power_of_two(-53);
+        if rounding > decimal(9, -7) * scale { hung(c, m, g, Exact::zero(), &part) } else { system }
+    }
+
+    /// The free deflection is at most one metre, and the plane at most four metres below the support.
+    fn far(&mut self) -> SpringMass<Exact> {
+        let part = self.part();
+        let l = self.decades(3, 5);
+        let l = if self.between(0, 3) == 0 { -l } else { l };
+        let (c, m, g) = (self.decades(2, 2), self.decades(-1, 0), self.decades(0, 0));
+        hung(c, m, g, l, &part)
+    }
+
+    /// A grazing system except for the last digit of one parameter.
+    fn near(&mut self) -> SpringMass<Exact> {
+        let mut system = self.grazing();
+        let SpringMass { c, m, g, l: _, h } = &mut system;
+        let near = match self.between(0, 3) {
+            0 => c,
+            1 => m,
+            2 => g,
+            _ => h,
+        };
+        let unit = last_digit(near);
+        *near = if self.number % 2 == 1 { &*near + unit } else { &*near - unit };
+        system
     }
 
     /// Draws lengths and stiffness between these powers of ten, which gravity compensates.
@@ -325,11 +281,10 @@ impl Draw {
         let SpringMass { c, m, g, l, h } = self.grazing();
         let (more, less) = (Exact::one() + &part, Exact::one() - &part);
         let factor = if touches { more / less } else { less / more };
-        let short = |x: Exact| short(&x, DIGITS);
         match self.between(0, 2) {
-            0 => SpringMass { c: short(c / factor), m, g, l, h },
-            1 => SpringMass { m: short(m * factor), c, g, l, h },
-            _ => SpringMass { g: short(g * factor), c, m, l, h },
+            0 => SpringMass { c: short(&(c / factor), DIGITS), m, g, l, h },
+            1 => SpringMass { m: short(&(m * factor), DIGITS), c, g, l, h },
+            _ => SpringMass { g: short(&(g * factor), DIGITS), c, m, l, h },
         }
     }
 

@@ -6,9 +6,13 @@ use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structur
 use crate::claims::symbols;
 use crate::number::tree::{Op, piecewise_ops};
 use crate::number::{Exact, PositivePart, Tree};
+use crate::proof::mutation::mutated;
 
 /// u in m and N in N, as formulas.
 pub(super) type Formulas = [Tree; 2];
+
+/// Quantities with their names.
+type Named = [(&'static str, Tree)];
 
 /// The quantities of a program that have the same unit, so that one may be taken for another.
 const ALIKE: [&[&str]; 3] = [&["c", "ε"], &["l", "H", "gap", "u", "p"], &["R", "N"]];
@@ -19,15 +23,53 @@ struct Step {
     name: &'static str,
     /// Its formula, of the parameters and of earlier results.
     value: Tree,
+    role: Role,
 }
 
-/// A program: intermediate results, and u and N, or these for each of two states.
+impl Step {
+    fn line(&self) -> String {
+        format!("{} = {}", self.name, self.value)
+    }
+
+    /// Describes another formula for it.
+    fn edit(&self, new: &Tree) -> String {
+        let Step { name, value, role } = self;
+        match role {
+            Role::Condition => format!("the plane acts if {new} > 0 instead of if {value} > 0"),
+            _ => format!("{}{name} = {new} instead of {value}", role.state()),
+        }
+    }
+}
+
+/// Role of a result in a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Role {
+    Intermediate,
+    /// It is positive in contact.
+    Condition,
+    /// u or N in contact.
+    InContact,
+    /// u or N without contact.
+    Apart,
+    /// u or N in both states.
+    Always,
+}
+
+impl Role {
+    /// Returns the state to which a result belongs, as words before an edit.
+    fn state(self) -> &'static str {
+        match self {
+            Role::InContact => "in contact ",
+            Role::Apart => "without contact ",
+            Role::Intermediate | Role::Condition | Role::Always => "",
+        }
+    }
+}
+
+/// A program: intermediate results, and u and N, or a condition, and u and N for each of two states.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Program {
     steps: Vec<Step>,
-    /// Whether the last steps are the quantity that is positive in contact, u and N in contact, and u and N
-    /// otherwise. They are u and N if not.
-    has_branches: bool,
     /// The returned u and N, as functions of the computed ones.
     returned: Formulas,
 }
@@ -89,74 +131,102 @@ impl Results {
 
     /// Returns the value that decides the state: R if there is no condition.
     pub fn reaction(&self, system: &SpringMass<Exact>, constants: &Constants<Exact>) -> Exact {
-        let own = self.condition.as_ref().and_then(|condition| value(condition, system, constants));
-        own.unwrap_or_else(|| system::reaction(system))
+        let condition = self.condition.as_ref();
+        let value = condition.and_then(|condition| value(condition, system, constants));
+        value.unwrap_or_else(|| system::reaction(system))
     }
 }
 
 impl Program {
-    fn with_branches(
-        named: &[(&'static str, Tree)],
-        condition: Tree,
-        contact: Formulas,
-        apart: Formulas,
-    ) -> Self {
+    fn with_branches(named: &Named, condition: Tree, contact: Formulas, apart: Formulas) -> Self {
         let ([u, n], [free, zero]) = (contact, apart);
-        let last = [("condition", condition), ("u", u), ("N", n), ("u", free), ("N", zero)];
-        Program { steps: steps(named, &last), has_branches: true, returned: returned() }
+        let last = [
+            ("condition", condition, Role::Condition),
+            ("u", u, Role::InContact),
+            ("N", n, Role::InContact),
+            ("u", free, Role::Apart),
+            ("N", zero, Role::Apart),
+        ];
+        Program::new(named, last)
     }
 
-    fn without_branches(named: &[(&'static str, Tree)], [u, n]: Formulas) -> Self {
-        Program { steps: steps(named, &[("u", u), ("N", n)]), has_branches: false, returned: returned() }
+    fn without_branches(named: &Named, [u, n]: Formulas) -> Self {
+        Program::new(named, [("u", u, Role::Always), ("N", n, Role::Always)])
     }
 
-    /// Returns the number of intermediate results.
-    fn count(&self) -> usize {
-        self.steps.len() - if self.has_branches { 5 } else { 2 }
+    /// Returns a program whose steps use the names of intermediate results.
+    fn new<const N: usize>(named: &Named, last: [(&'static str, Tree, Role); N]) -> Self {
+        let intermediate = named.iter().map(|(name, value)| (*name, value.clone(), Role::Intermediate));
+        let mut steps: Vec<Step> = Vec::new();
+        for (name, value, role) in intermediate.chain(last) {
+            let value = value.rewrite(&|part| {
+                let mut earlier = steps.iter().filter(|step| step.role == Role::Intermediate);
+                let step = earlier.find(|step| step.value == *part && part.size() > 1)?;
+                Some(Tree::symbol(step.name))
+            });
+            steps.push(Step { name, value, role });
+        }
+        Program { steps, returned: returned() }
+    }
+
+    fn of(&self, role: Role) -> impl Iterator<Item = &Step> {
+        self.steps.iter().filter(move |step| step.role == role)
+    }
+
+    /// Returns the index of the condition, after the intermediate results.
+    fn condition(&self) -> Option<usize> {
+        self.steps.iter().position(|step| step.role == Role::Condition)
     }
 
     /// Returns the results as functions of the parameters.
     pub fn results(&self) -> Results {
         let mut known: Vec<(&str, Tree)> = Vec::new();
-        let (named, last) = self.steps.split_at(self.count());
-        for Step { name, value } in named {
-            known.push((name, value.substitute(&known)));
+        for step in self.of(Role::Intermediate) {
+            known.push((step.name, step.value.substitute(&known)));
         }
-        let both = |u: &Step, n: &Step| {
-            let u = u.value.substitute(&known);
-            let n = n.value.substitute(&[&known[..], &[("u", u.clone())]].concat());
-            self.returned.each_ref().map(|of| of.substitute(&[("u", u.clone()), ("N", n.clone())]))
-        };
-        match last {
-            [condition, u, n, free, zero] => Results {
-                condition: Some(condition.value.substitute(&known)),
-                contact: both(u, n),
-                separated: both(free, zero),
-            },
-            _ => {
-                let both = both(&last[0], &last[1]);
+        match self.condition() {
+            None => {
+                let both = self.results_of(Role::Always, &known);
                 Results { condition: None, contact: both.clone(), separated: both }
             }
+            Some(i) => Results {
+                condition: Some(self.steps[i].value.substitute(&known)),
+                contact: self.results_of(Role::InContact, &known),
+                separated: self.results_of(Role::Apart, &known),
+            },
         }
+    }
+
+    /// Returns the returned u and N, given the intermediate results.
+    fn results_of(&self, role: Role, known: &[(&str, Tree)]) -> Formulas {
+        let mut known = known.to_vec();
+        for step in self.of(role) {
+            known.push((step.name, step.value.substitute(&known)));
+        }
+        self.returned.each_ref().map(|formula| formula.substitute(&known))
     }
 
     /// Returns the lines of the program.
     pub fn lines(&self) -> Vec<String> {
-        let (named, last) = self.steps.split_at(self.count());
-        let mut lines: Vec<_> = named.iter().map(|step| format!("{} = {}", step.name, step.value)).collect();
-        let both = |u: &Step, n: &Step| format!("u = {}, N = {}", u.value, n.value);
-        lines.push(match last {
-            [condition, u, n, free, zero] => match condition.value.op() {
-                Op::Int(0) => both(free, zero),
-                Op::Int(_) => both(u, n),
-                _ => format!("{} if {} > 0, else {}", both(u, n), condition.value, both(free, zero)),
-            },
-            _ => both(&last[0], &last[1]),
+        let mut lines: Vec<_> = self.of(Role::Intermediate).map(Step::line).collect();
+        lines.push(match self.condition().map(|i| &self.steps[i].value) {
+            None => self.line_of(Role::Always),
+            Some(condition) => {
+                match (condition.op(), [Role::InContact, Role::Apart].map(|role| self.line_of(role))) {
+                    (Op::Int(0), [_, apart]) => apart,
+                    (Op::Int(_), [contact, _]) => contact,
+                    (_, [contact, apart]) => format!("{contact} if {condition} > 0, else {apart}"),
+                }
+            }
         });
         if self.returned != returned() {
             lines.push(format!("returned as u: {}, as N: {}", self.returned[0], self.returned[1]));
         }
         lines
+    }
+
+    fn line_of(&self, role: Role) -> String {
+        self.of(role).map(Step::line).collect::<Vec<_>>().join(", ")
     }
 
     fn with(&self, i: usize, value: Tree) -> Self {
@@ -167,47 +237,45 @@ impl Program {
 
     /// Returns the program that uses these formulas for parameters.
     fn using(&self, replaced: &[(&str, Tree)]) -> Self {
-        let steps =
-            self.steps.iter().map(|Step { name, value }| Step { name, value: value.substitute(replaced) });
-        Program { steps: steps.collect(), ..self.clone() }
-    }
-
-    /// Returns the state to which a step belongs, as words before an edit.
-    fn state_of_step(&self, i: usize) -> &'static str {
-        match (self.has_branches, i.checked_sub(self.count())) {
-            (true, Some(1 | 2)) => "in contact ",
-            (true, Some(3 | 4)) => "without contact ",
-            _ => "",
+        let mut changed = self.clone();
+        for step in &mut changed.steps {
+            step.value = step.value.substitute(replaced);
         }
+        changed
     }
 
     /// Returns the programs with one operation changed: where it is, or only in one use of its result.
     fn with_one_operation(&self) -> Vec<Mistake> {
         let mut all = Vec::new();
-        for (i, Step { name, value }) in self.steps.iter().enumerate() {
-            let is_condition = self.has_branches && i == self.count();
-            for new in
-                changes(value, &self.steps[..i.min(self.count())]).into_iter().filter(|new| new != value)
-            {
-                let edit = if is_condition {
-                    format!("the plane acts if {new} > 0 instead of if {value} > 0")
-                } else {
-                    format!("{}{name} = {new} instead of {value}", self.state_of_step(i))
-                };
-                let users: Vec<_> = (i + 1..self.steps.len())
-                    .filter(|j| i < self.count() && self.steps[*j].value.symbols().contains(name))
-                    .collect();
-                all.push(Mistake::new(edit.clone(), self.with(i, new.clone())));
-                for j in users.iter().copied().filter(|_| users.len() > 1) {
-                    let user = &self.steps[j];
-                    let used = user.value.substitute(&[(name, new.clone())]);
-                    let place = if user.name == "condition" { "the condition" } else { user.name };
-                    let name = format!("{edit}, in {}{place} alone", self.state_of_step(j));
-                    all.push(Mistake { is_partial: true, ..Mistake::new(name, self.with(j, used)) });
+        let mut known = SpringMass::SYMBOLS.into_array().to_vec();
+        for (i, step) in self.steps.iter().enumerate() {
+            for new in changes(&step.value, &known) {
+                if new == step.value {
+                    continue;
                 }
+                let edit = step.edit(&new);
+                all.push(Mistake::new(edit.clone(), self.with(i, new.clone())));
+                let users = self.users(i);
+                for j in if users.len() > 1 { users } else { Vec::new() } {
+                    let user = &self.steps[j];
+                    let place = if user.role == Role::Condition { "the condition" } else { user.name };
+                    let name = format!("{edit}, in {}{place} alone", user.role.state());
+                    let used = self.with(j, user.value.substitute(&[(step.name, new.clone())]));
+                    all.push(Mistake { is_partial: true, ..Mistake::new(name, used) });
+                }
+            }
+            if step.role == Role::Intermediate {
+                known.push(step.name);
             }
         }
         all
+    }
+
+    /// Returns the indices of the steps that use an intermediate result.
+    fn users(&self, i: usize) -> Vec<usize> {
+        let Step { name, role, .. } = &self.steps[i];
+        let later = (i + 1..self.steps.len()).filter(|_| *role == Role::Intermediate);
+        later.filter(|j| self.steps[*j].value.symbols().contains(name)).collect()
     }
 
     /// Returns the programs that use another value for a parameter.
@@ -243,19 +311,19 @@ impl Program {
         let bounded = -(-&u).min(&l.abs());
         let deflections =
             [-&u, u.abs(), u.positive_part(), zero.clone(), &l + &u, p.clone(), -p, h - l, bounded];
-        let reaction = system::reaction(own);
-        let forces = [-&n, n.abs(), zero.clone(), system::weight(own), structure::spring_force(own, &u), sum]
-            .into_iter()
-            .chain([&force, &reaction].into_iter().flat_map(signs));
-        let deflections =
-            deflections.into_iter().map(|new| (format!("{new} is returned as u"), [new, n.clone()]));
-        let forces = forces.map(|new| (format!("{new} is returned as N"), [u.clone(), new]));
-        let both = [
-            ("u and N are swapped".to_string(), [n.clone(), u.clone()]),
-            ("0 is returned as u and N".to_string(), [zero.clone(), zero]),
-        ];
-        let all = deflections.chain(forces).chain(both);
-        all.map(|(name, returned)| Mistake::new(name, Program { returned, ..self.clone() })).collect()
+        let forces = [-&n, n.abs(), zero.clone(), system::weight(own), structure::spring_force(own, &u), sum];
+        let forces = forces.into_iter().chain(signs(&force)).chain(signs(&system::reaction(own)));
+        let mut returned = Vec::new();
+        for u in deflections {
+            returned.push((format!("{u} is returned as u"), [u, n.clone()]));
+        }
+        for n in forces {
+            returned.push((format!("{n} is returned as N"), [u.clone(), n]));
+        }
+        returned.push(("u and N are swapped".to_string(), [n, u]));
+        returned.push(("0 is returned as u and N".to_string(), [zero.clone(), zero]));
+        let returning = |(name, returned)| Mistake::new(name, Program { returned, ..self.clone() });
+        returned.into_iter().map(returning).collect()
     }
 
     /// Returns the program with one edit, in all ways.
@@ -280,62 +348,33 @@ fn signs(of: &Tree) -> [Tree; 4] {
     [of.clone(), -of, of.positive_part(), of.abs()]
 }
 
-/// Returns the steps with these names and formulas. The intermediate results have their names in later ones.
-fn steps(named: &[(&'static str, Tree)], last: &[(&'static str, Tree)]) -> Vec<Step> {
-    let mut steps: Vec<Step> = Vec::new();
-    for (i, (name, value)) in named.iter().chain(last).enumerate() {
-        let earlier = &steps[..i.min(named.len())];
-        let name_of = |part: &Tree| {
-            let known = earlier.iter().find(|step| step.value == *part && part.size() > 1);
-            known.map(|step| Tree::symbol(step.name))
-        };
-        let value = value.rewrite(&name_of);
-        steps.push(Step { name, value });
-    }
-    steps
-}
-
-/// Returns the formulas with one operation changed.
-fn changes(tree: &Tree, earlier: &[Step]) -> Vec<Tree> {
-    let mut all = changes_of_last(tree, earlier);
+/// Returns the formulas with one operation changed, by operations or the names of known quantities.
+fn changes(tree: &Tree, known: &[&str]) -> Vec<Tree> {
+    let mut all = changes_of_last(tree, known);
     for (i, operand) in tree.op().operands().enumerate() {
-        for new in changes(operand, earlier) {
+        for new in changes(operand, known) {
             let mut places = 0..;
-            let step = tree.op().map(|own| if places.next() == Some(i) { new.clone() } else { own.clone() });
-            all.push(tree.with_op(step));
+            let op = tree.op().map(|own| if places.next() == Some(i) { new.clone() } else { own.clone() });
+            all.push(tree.with_op(op));
         }
     }
     all
 }
 
 /// Returns the formulas in place of one whose last operation is changed.
-fn changes_of_last(tree: &Tree, earlier: &[Step]) -> Vec<Tree> {
-    let of = |step| tree.with_op(step);
+fn changes_of_last(tree: &Tree, known: &[&str]) -> Vec<Tree> {
     let [_, negated, bracketed, size] = signs(tree);
-    let mut all = match tree.op() {
-        Op::Add(a, b) => vec![of(Op::Sub(a.clone(), b.clone())), a.clone(), b.clone()],
-        Op::Sub(a, b) => {
-            vec![of(Op::Add(a.clone(), b.clone())), a.clone(), b.clone(), of(Op::Sub(b.clone(), a.clone()))]
-        }
-        Op::Mul(a, b) => vec![of(Op::Div(a.clone(), b.clone())), a.clone(), b.clone()],
-        Op::Div(a, b) => {
-            vec![of(Op::Mul(a.clone(), b.clone())), a.clone(), b.clone(), of(Op::Div(b.clone(), a.clone()))]
-        }
-        Op::Min(a, b) => vec![-(-a).min(&-b), a.clone(), b.clone()],
-        Op::Neg(a) | Op::PositivePart(a) => vec![a.clone(), a.abs()],
+    let mut all = mutated(tree);
+    match tree.op() {
+        Op::Int(_) => return Vec::new(),
+        Op::Neg(a) | Op::PositivePart(a) => all.push(a.abs()),
         Op::Symbol(name) => {
             let alike = ALIKE.iter().filter(|names| names.contains(name)).flat_map(|names| names.iter());
-            let is_known = |other: &str| {
-                SpringMass::SYMBOLS.into_array().contains(&other)
-                    || earlier.iter().any(|step| step.name == other)
-            };
-            alike.filter(|other| *other != name && is_known(other)).map(|other| Tree::symbol(other)).collect()
+            all.extend(alike.filter(|x| *x != name && known.contains(x)).map(|x| Tree::symbol(x)));
         }
-        Op::Int(_) | Op::Exp(_) | Op::Rounded(_) => Vec::new(),
-    };
-    if !matches!(tree.op(), Op::Int(_)) {
-        all.extend([negated, bracketed, size, Tree::from(0)]);
+        _ => {}
     }
+    all.extend([negated, bracketed, size, Tree::from(0)]);
     all
 }
 
@@ -415,16 +454,16 @@ pub(super) fn in_some_answers(by_penalty: bool) -> Vec<Mistake> {
 /// Returns the programs that always, or never, give the results in contact.
 fn undecided(by_penalty: bool) -> Vec<Mistake> {
     let program = reference(by_penalty);
-    let decided = |(name, value)| Mistake::new(name, program.with(program.count(), Tree::from(value)));
-    let decision = |mistake| Mistake { is_decision: true, ..mistake };
-    let held = program.with(program.count(), Tree::from(1)).with(program.count() + 2, Tree::from(0));
-    let held = Mistake::new("the mass is held at the plane, with N = 0", held);
-    [("the plane always acts", 1), ("the plane never acts", 0)]
-        .map(decided)
-        .into_iter()
-        .chain([held])
-        .map(decision)
-        .collect()
+    let condition = program.condition().expect("a program with branches");
+    let [never, always] = [0, 1].map(|value| program.with(condition, Tree::from(value)));
+    let without_force = always.with(condition + 2, Tree::from(0));
+    [
+        ("the plane always acts", always),
+        ("the plane never acts", never),
+        ("the mass is held at the plane, with N = 0", without_force),
+    ]
+    .map(|(name, program)| Mistake { is_decision: true, ..Mistake::new(name, program) })
+    .to_vec()
 }
 
 /// Returns every program with one unknown number k.
@@ -526,13 +565,20 @@ pub(super) fn value<T: PositivePart>(
     system: &SpringMass<T>,
     constants: &Constants<T>,
 ) -> Option<T> {
-    let symbol = |name: &str| match name {
-        "ε" => constants.penalty.cloned(),
-        "k" => constants.factor.cloned(),
-        name => system.by_symbol(name).cloned(),
-    };
-    let all = tree.symbols().into_iter().all(|name| symbol(name).is_some());
-    all.then(|| tree.eval(&|name| symbol(name).expect("known"), &piecewise_ops)).flatten()
+    let all = tree.symbols().into_iter().all(|name| constants.symbol(name, system).is_some());
+    let symbol = |name| constants.symbol(name, system).expect("known").clone();
+    if all { tree.eval(&symbol, &piecewise_ops) } else { None }
+}
+
+impl<'a, T> Constants<'a, T> {
+    /// Returns the quantity with a symbol, if it is known.
+    fn symbol(&self, name: &str, system: &'a SpringMass<T>) -> Option<&'a T> {
+        match name {
+            "ε" => self.penalty,
+            "k" => self.factor,
+            name => system.by_symbol(name),
+        }
+    }
 }
 
 /// Returns the right formulas of u in m and N in N, by Lagrange multiplier or by penalty.

@@ -27,7 +27,7 @@ fn sample<T>(mistakes: impl IntoIterator<Item = T>, one_of: usize) -> impl Itera
 }
 
 fn default_problems() -> Vec<Problem> {
-    problems(1, CASES, &Family::ALL)
+    problems(1, CASES, Family::ALL)
 }
 
 /// Adds penalties that are different for all systems, also as multiples of c.
@@ -69,7 +69,7 @@ fn right(problem: &Problem) -> Answer {
 
 #[test]
 fn systems_have_the_property_of_their_family() {
-    let all = problems(1, 40, &Family::ALL);
+    let all = problems(1, 40, Family::ALL);
     let short = |x: &Exact| x.decimal(DIGITS, Round::Nearest).parse().as_ref() == Ok(x);
     for Problem { id, family, system, .. } in &all {
         let SpringMass { c, m, g, l, h } = system;
@@ -164,7 +164,7 @@ fn systems_have_the_property_of_their_family() {
     let off = (stiff.solution().deflection - rounded.solution().deflection).abs();
     assert!(off <= number(TOLERANCE) * assessment::scales(&stiff.system)[0].clone(), "{}", stiff.system);
     // The systems depend on the seed, and those of a family not on the others.
-    assert_eq!(problems(1, 3, &[Stiff]), problems(1, 40, &Family::ALL)[240..243]);
+    assert_eq!(problems(1, 3, &[Stiff]), problems(1, 40, Family::ALL)[240..243]);
     assert_ne!(problems(2, 3, &[Stiff]), problems(1, 3, &[Stiff]));
     // Also for seeds that agree in their lower bits.
     for other in [1 | 1 << 32, 1 | 1 << 63] {
@@ -213,7 +213,7 @@ fn no_two_systems_are_the_same() {
         let other = seen.insert(problem.system.to_string(), own.clone());
         assert_eq!(other, None, "{own}");
     };
-    for problem in problems(1, 1000, &Family::ALL) {
+    for problem in problems(1, 1000, Family::ALL) {
         assert_new(1, problem);
     }
     for seed in (1..64).map(|bit| 1 + (1 << bit)) {
@@ -223,7 +223,7 @@ fn no_two_systems_are_the_same() {
 
 #[test]
 fn names_agree_with_the_command_line_and_json() {
-    for family in Family::ALL {
+    for family in Family::ALL.iter().copied() {
         assert_eq!(family.name().parse(), Ok(family));
     }
     assert_eq!("flat".parse::<Family>(), Err(UnknownFamily));
@@ -240,7 +240,7 @@ fn names_agree_with_the_command_line_and_json() {
 fn the_book_lists_all_families() {
     let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src/check.md");
     let page = std::fs::read_to_string(page).unwrap();
-    let names = Family::ALL.into_iter().map(|family| format!("`{family}`"));
+    let names = Family::ALL.iter().map(|family| format!("`{family}`"));
     let unnamed: Vec<_> = names.filter(|name| !page.contains(name)).collect();
     assert!(
         unnamed.is_empty(),

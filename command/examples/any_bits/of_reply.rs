@@ -116,7 +116,7 @@ fn number(bytes: &mut Bytes) -> String {
 
 /// Replies are parsed or rejected; parsed ones are assessed whatever method they report.
 pub fn read(bytes: &[u8]) {
-    static PROBLEMS: LazyLock<Vec<Problem>> = LazyLock::new(|| problems(1, 1, &Family::ALL));
+    static PROBLEMS: LazyLock<Vec<Problem>> = LazyLock::new(|| problems(1, 1, Family::ALL));
     let mut bytes = Bytes(bytes);
     let tolerance = if bytes.one_in(2) { "1e-6" } else { "1/3" }.parse().expect("a number");
     let (first, many) = (bytes.below(PROBLEMS.len() - 3), 1 + bytes.below(3));

@@ -12,7 +12,7 @@
 
 mod mutant;
 
-pub use mutant::{Mutant, Mutation, Operator, mutants, mutants_in};
+pub use mutant::{Mutant, Mutation, Operator, mutants, mutants_in, mutated};
 
 use super::prove;
 use super::refute::{PointSet, Refutation};

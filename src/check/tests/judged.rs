@@ -32,7 +32,7 @@ fn a_correct_program_has_no_diagnosis() {
 fn the_exact_answer_rounded_once_is_right() {
     let penalties = [None, Some("1e8"), Some("1e12"), Some("3.7e15")];
     for (seed, penalty) in (1..=3).flat_map(|seed| penalties.map(|penalty| (seed, penalty))) {
-        for problem in problems(seed, 40, &Family::ALL) {
+        for problem in problems(seed, 40, Family::ALL) {
             let problem = Problem { penalty: penalty.map(number), ..problem };
             assert_rounded_once_is_right(&problem);
         }

@@ -25,7 +25,7 @@ fn said(report: &Report) -> String {
 }
 
 fn all() -> Vec<Problem> {
-    problems(1, CASES, &Family::ALL)
+    problems(1, CASES, Family::ALL)
 }
 
 fn right(problem: &Problem) -> Answer {
@@ -35,7 +35,7 @@ fn right(problem: &Problem) -> Answer {
 
 /// Returns a report on a solver without a plane where a quantity is below a threshold.
 fn missing(is_small: impl Fn(&SpringMass<Exact>) -> bool) -> Report {
-    report(&problems(1, 10, &Family::ALL), |problem| {
+    report(&problems(1, 10, Family::ALL), |problem| {
         let free = structure::deflection(&problem.system);
         if is_small(&problem.system) { Answer::new(free, number("0")) } else { right(problem) }
     })
@@ -135,7 +135,7 @@ fn the_report_lists_the_tested_penalties() {
         };
         said(&check(&problems(1, 1, families), &number("1e-6"), ask).expect("no failure"))
     };
-    let all = said_of(&Family::ALL, "");
+    let all = said_of(Family::ALL, "");
     assert!(
         all.contains("No error above 1e-6 was found in 23 systems of 14 families, with one unknown and one")
     );
@@ -150,6 +150,6 @@ fn the_report_lists_the_tested_penalties() {
     let one = said_of(&[Family::Contact], "");
     assert!(one.ends_with(&text), "{text}\n{one}");
     // A family without answers leaves the result open.
-    let refused = said_of(&Family::ALL, "stiff");
+    let refused = said_of(Family::ALL, "stiff");
     assert!(refused.ends_with("Every system of stiff was refused, so its result is unknown."), "{refused}");
 }

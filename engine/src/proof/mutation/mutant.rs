@@ -266,6 +266,12 @@ impl Mutant {
     }
 }
 
+/// Returns the formulas whose last operation is mutated, but not its symbols.
+pub fn mutated(tree: &Tree) -> Vec<Tree> {
+    let mutations = Mutation::all(tree, &Registry::default()).into_iter();
+    mutations.filter_map(|mutation| mutation.mutate(tree)).collect()
+}
+
 /// Returns all mutants of functions of the registry that affect the statements.
 pub fn mutants(statements: &[Statement], registry: &Registry) -> Vec<Mutant> {
     mutants_in(statements.iter().flat_map(Statement::trees), registry)
