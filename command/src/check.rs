@@ -2,7 +2,7 @@
 
 mod json;
 mod program;
-mod reply;
+pub mod reply;
 mod report;
 
 use crate::args::{Number, parse_positive};

@@ -1,9 +1,8 @@
-//! Properties of `contact check` for arbitrary answers of a program, with the parser of replies included as a
-//! file.
+//! Properties of `contact check` for arbitrary answers of a program.
 
 use crate::bytes::Bytes;
-use crate::contact::check::reply;
 use spring_mass_contact::check::{Answer, Family, Problem, Reply, Verdict, check, problems};
+use spring_mass_contact_cli::reply;
 use std::convert::Infallible;
 use std::sync::LazyLock;
 

@@ -1,37 +1,15 @@
-//! Property tests with arbitrary bits: numbers of every kind as arguments, and arbitrary texts as numbers.
-//! Nothing panics or takes long, errors name their argument, and results satisfy their guarantees.
+//! Runs the properties with arbitrary bits.
 //!
 //! ```sh
-//! cargo run --release --example any_bits -- --executions 10000000 --target solve_f32
+//! cargo run --release -p any_bits -- --executions 10000000 --target solve_f32
 //! ```
 //! tests one target with ten million arguments; without `--target`, each with as many. The arguments are
 //! determined by `--seed N` and their index, so a failure can be reproduced with `--from INDEX --executions
-//! 1`, which prints them. The directory `fuzz` runs the same targets with a coverage-guided fuzzer.
+//! 1`, which prints them.
 
-mod bytes;
-mod forged;
-mod holds;
-mod of_reply;
-
-// What the command reads a program's answers with, and what that needs of it.
-#[allow(dead_code, unused_imports, unused_macros)]
-#[path = "../../src"]
-mod contact {
-    pub mod args;
-    pub mod indent;
-    pub mod json;
-    pub mod lines;
-    pub mod output;
-    pub mod check {
-        pub mod reply;
-    }
-}
-
-use contact::{args, indent, json, lines, output};
-use holds::SHOWN;
+use any_bits::{SHOWN, TARGETS, Target};
 use oorandom::Rand64;
 use rayon::prelude::*;
-use spring_mass_contact::number::{Exact, Mpfr};
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind, set_hook};
 use std::process::{ExitCode, exit};
@@ -44,20 +22,6 @@ const LONGEST: Duration = Duration::from_secs(if cfg!(debug_assertions) { 10 } e
 
 /// Time after which an execution is abandoned.
 const HANG: Duration = Duration::from_secs(60);
-
-/// Name, maximal number of bytes, and property.
-type Target = (&'static str, usize, fn(&[u8]));
-
-const TARGETS: [Target; 8] = [
-    ("parse", 40, holds::parse),
-    ("solve_f32", 96, holds::solve_any::<f32>),
-    ("solve_f64", 96, holds::solve_any::<f64>),
-    ("solve_mpfr", 128, holds::solve_any::<Mpfr>),
-    ("solve_exact", 128, holds::solve_any::<Exact>),
-    ("functions", 192, holds::functions),
-    ("reply", 128, of_reply::read),
-    ("forged", 112, forged::prove_nothing),
-];
 
 /// Fills the bytes of an index.
 fn drawn(seed: u64, number: u64, bytes: &mut [u8]) {
@@ -240,12 +204,4 @@ fn main() -> ExitCode {
     }
     println!("peak memory: {}", peak());
     ExitCode::from(u8::from(violations > 0))
-}
-
-#[test]
-fn they_find_nothing_in_some() {
-    for target in &TARGETS {
-        let tally = run(target, 1, 0, 2000);
-        assert_eq!((tally.violations, tally.example), (0, None), "{}", target.0);
-    }
 }
