@@ -3,11 +3,12 @@
 //! guarantees. The binary draws the bits; in the directory above, a coverage-guided fuzzer does.
 
 mod bytes;
-mod forged;
-mod holds;
-mod of_reply;
 
-pub use holds::SHOWN;
+mod library;
+mod proofs;
+mod replies;
+
+pub use library::SHOWN;
 use spring_mass_contact::number::{Exact, Mpfr};
 
 /// Name, maximal number of bytes, and property.
@@ -15,14 +16,14 @@ pub type Target = (&'static str, usize, fn(&[u8]));
 
 /// All targets.
 pub const TARGETS: [Target; 8] = [
-    ("parse", 40, holds::parse),
-    ("solve_f32", 96, holds::solve_any::<f32>),
-    ("solve_f64", 96, holds::solve_any::<f64>),
-    ("solve_mpfr", 128, holds::solve_any::<Mpfr>),
-    ("solve_exact", 128, holds::solve_any::<Exact>),
-    ("functions", 192, holds::functions),
-    ("reply", 128, of_reply::read),
-    ("forged", 112, forged::prove_nothing),
+    ("parse", 40, library::parse),
+    ("solve_f32", 96, library::solve_any::<f32>),
+    ("solve_f64", 96, library::solve_any::<f64>),
+    ("solve_mpfr", 128, library::solve_any::<Mpfr>),
+    ("solve_exact", 128, library::solve_any::<Exact>),
+    ("functions", 192, library::functions),
+    ("reply", 128, replies::read),
+    ("forged", 112, proofs::prove_nothing),
 ];
 
 /// Tests the property of a target. Panics if it does not hold.

@@ -24,7 +24,7 @@ const LONGEST: Duration = Duration::from_secs(if cfg!(debug_assertions) { 10 } e
 const HANG: Duration = Duration::from_secs(60);
 
 /// Fills the bytes of an index.
-fn drawn(seed: u64, number: u64, bytes: &mut [u8]) {
+fn fill(seed: u64, number: u64, bytes: &mut [u8]) {
     let mut random = Rand64::new(u128::from(seed) << 64 | u128::from(number));
     for chunk in bytes.chunks_mut(8) {
         chunk.copy_from_slice(&random.rand_u64().to_le_bytes()[..chunk.len()]);
@@ -33,15 +33,15 @@ fn drawn(seed: u64, number: u64, bytes: &mut [u8]) {
 
 thread_local! {
     /// Message of the last panic of a thread.
-    static SAID: RefCell<String> = const { RefCell::new(String::new()) };
+    static LAST_PANIC: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
 /// Returns the failure of an execution.
-fn wrong((_, most, holds): &Target, seed: u64, number: u64) -> Option<String> {
+fn failure((_, most, property): &Target, seed: u64, number: u64) -> Option<String> {
     let mut bytes = [0; 256];
     let bytes = &mut bytes[..*most];
-    drawn(seed, number, bytes);
-    catch_unwind(AssertUnwindSafe(|| holds(bytes))).err().map(|_| SAID.take())
+    fill(seed, number, bytes);
+    catch_unwind(AssertUnwindSafe(|| property(bytes))).err().map(|_| LAST_PANIC.take())
 }
 
 /// Results of executions.
@@ -63,11 +63,11 @@ impl Tally {
 }
 
 /// Running executions by thread.
-struct UnderWay(Vec<[AtomicU64; 2]>, Instant);
+struct Executions(Vec<[AtomicU64; 2]>, Instant);
 
-impl UnderWay {
+impl Executions {
     fn new() -> Self {
-        UnderWay((0..rayon::current_num_threads()).map(|_| Default::default()).collect(), Instant::now())
+        Executions((0..rayon::current_num_threads()).map(|_| Default::default()).collect(), Instant::now())
     }
 
     fn set(&self, number: u64) {
@@ -87,13 +87,13 @@ impl UnderWay {
 const AT_ONCE: u64 = 64;
 
 fn run(target: &Target, seed: u64, from: u64, executions: u64) -> Tally {
-    let under_way = UnderWay::new();
+    let running = Executions::new();
     thread::scope(|scope| {
         let (ended, waits) = std::sync::mpsc::channel::<()>();
         scope.spawn(|| {
             let waits = waits;
             while waits.recv_timeout(LONGEST) == Err(std::sync::mpsc::RecvTimeoutError::Timeout) {
-                if let Some(number) = under_way.hanging() {
+                if let Some(number) = running.hanging() {
                     println!("{} {number} (or up to {AT_ONCE} later) does not end", target.0);
                     exit(1);
                 }
@@ -102,22 +102,22 @@ fn run(target: &Target, seed: u64, from: u64, executions: u64) -> Tally {
         let blocks = (0..executions.div_ceil(AT_ONCE)).into_par_iter();
         let tally = blocks.map(|block| {
             let mut tally = Tally::default();
-            under_way.set(from + block * AT_ONCE);
+            running.set(from + block * AT_ONCE);
             for number in from + block * AT_ONCE..from + ((block + 1) * AT_ONCE).min(executions) {
                 let timed = || {
                     let start = Instant::now();
-                    let wrong = wrong(target, seed, number);
-                    (wrong, start.elapsed())
+                    let failure = failure(target, seed, number);
+                    (failure, start.elapsed())
                 };
-                let (mut wrong, mut took) = timed();
+                let (mut failure, mut took) = timed();
                 // The machine may have been busy with something else.
                 if took > LONGEST {
                     took = took.min(timed().1);
                 }
                 if took > LONGEST {
-                    wrong = wrong.or(Some(format!("it takes {took:?}")));
+                    failure = failure.or(Some(format!("it takes {took:?}")));
                 }
-                let example = wrong.map(|wrong| (number, wrong));
+                let example = failure.map(|failure| (number, failure));
                 let violations = u64::from(example.is_some());
                 tally = tally.and(Tally { violations, slowest: (took, number), example });
             }
@@ -183,7 +183,7 @@ fn main() -> ExitCode {
         }
     };
     SHOWN.store(executions == 1, Ordering::Relaxed);
-    set_hook(Box::new(|panic| SAID.set(panic.to_string().replace('\n', " "))));
+    set_hook(Box::new(|panic| LAST_PANIC.set(panic.to_string().replace('\n', " "))));
     println!("target        executions  violations  seconds  slowest in ms");
     let mut violations = 0;
     for target in targets {
