@@ -5,7 +5,7 @@ mod seen;
 
 use super::*;
 use num_traits::One;
-use rustix::process::{Pid, Signal, kill_process};
+use rustix::process::{Pid, Signal, getpgid, getppid, kill_process, setpgid};
 use spring_mass_contact::check::{Answer, Family};
 use std::fs::{self, File};
 use std::io::BufRead;
@@ -316,6 +316,29 @@ fn leaves_a_stranger() {
         let mut sleep = Command::new("sleep");
         sleep.arg(STRANGER.as_secs().to_string()).process_group(0).spawn().expect("a command of every Unix");
         std::process::exit(3);
+    }
+}
+
+/// It is ended though a signal to its former group does not reach it.
+#[test]
+fn a_program_that_leaves_its_group_is_ended() {
+    in_time(|| {
+        let fifo = Fifo::new("leaver");
+        let lines = fifo.read();
+        let (path, test) = (own_path(), own_name("leaves_its_group"));
+        let script = format!("{} exec '{}' {test} --exact --ignored", fifo.open(), path.display());
+        let mut program = sh(&script, SHORT);
+        assert!(matches!(ask(&mut program, "a"), Reply::TimedOut(_)));
+        nobody_is_left(&lines);
+    });
+}
+
+#[test]
+#[ignore = "run by another"]
+fn leaves_its_group() {
+    if std::env::args().any(|argument| argument == "--exact") {
+        setpgid(None, Some(getpgid(getppid()).expect("a parent"))).expect("a group of the same session");
+        thread::sleep(DEADLINE + LONG);
     }
 }
 
