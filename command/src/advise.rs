@@ -10,7 +10,7 @@ use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::number::{ExactText, NumberSystem};
 use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{
-    Advice, Method, Plane, Recommendation, Scalar, SolveError, advise, required_precision,
+    Advice, Method, Plane, Recommendation, Scalar, advise, required_precision,
 };
 use std::io::{self, Write};
 
@@ -52,13 +52,13 @@ pub struct Options {
 formats!(Table: "For people", Json: "Numbers as strings");
 
 /// Largest precision of the runs that confirm an advice: a thousand augmentations then take a second.
-const MOST_BITS: u32 = 100_000;
+const MAX_CONFIRMED_BITS: u32 = 100_000;
 
 /// Computes the advice and prints it.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let scalar = options.scalar;
-    if matches!(scalar, NumberSystem::Mpfr(bits) if bits > MOST_BITS) {
-        let reason = format!("advice is confirmed by runs, which take at most mpfr:{MOST_BITS}");
+    if matches!(scalar, NumberSystem::Mpfr(bits) if bits > MAX_CONFIRMED_BITS) {
+        let reason = format!("advice is confirmed by runs, which take at most mpfr:{MAX_CONFIRMED_BITS}");
         return Err(invalid(&scalar.to_string(), "--scalar <S>", reason));
     }
     in_scalar!(scalar, |like| run_in(options, like))
@@ -67,13 +67,13 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 fn run_in<T: Scalar + ExactText>(options: &Options, like: &T) -> Result<Exit, Failure> {
     let system = options.system.round(NameStyle::Options, like)?;
     let tolerance = options.tolerance.round("--tolerance <T>", like)?;
-    let out_of_range = |error: SolveError| Failure::Input(format!("--scalar {}: {error}", options.scalar));
-    let advice = advise(&system, &tolerance).map_err(out_of_range)?;
-    // For the typed numbers, which a higher precision rounds differently.
-    let values = options.system.values();
-    let required_precision =
-        required_precision(&values, Plane::Unilateral, &options.tolerance.value).map_err(out_of_range)?;
-    let report = Report { options, system, tolerance, advice, required_precision };
+    // The precision is that for the typed numbers, which a higher precision rounds differently.
+    let report = advise(&system, &tolerance).and_then(|advice| {
+        let values = options.system.values();
+        let required_precision = required_precision(&values, Plane::Unilateral, &options.tolerance.value)?;
+        Ok(Report { options, system, tolerance, advice, required_precision })
+    });
+    let report = report.map_err(|error| format!("--scalar {}: {error}", options.scalar))?;
     output::print(|out| match options.format {
         Format::Table => report.table(out),
         Format::Json => output::json(out, &report.json()),
@@ -93,18 +93,6 @@ struct Report<'a, T> {
 impl<T: Scalar + ExactText> Report<'_, T> {
     /// Returns the report for JSON: quantities as texts, and the error relative to the force.
     fn json(&self) -> impl Serialize {
-        let choice = |choice: &Recommendation<T>| {
-            let penalty = choice.method.penalty();
-            let range = || choice.penalty_range.each_ref().map(|end| end.as_ref().map(ExactText::text));
-            record! {
-                method: MethodName::of(&choice.method).name(),
-                penalty: penalty.map(ExactText::text),
-                penalty_range: penalty.map(|_| range()),
-                augmentations: choice.augmentations,
-                penetration: choice.penetration.decimal(17, Round::Nearest),
-                force_error: choice.relative_force_error.as_ref().map(|error| error.decimal(3, Round::Up)),
-            }
-        };
         let choices = &self.advice.recommendations;
         record! {
             scalar: self.options.scalar,
@@ -112,7 +100,7 @@ impl<T: Scalar + ExactText> Report<'_, T> {
             floor: self.advice.floor.as_ref().map(|floor| floor.decimal(17, Round::Up)),
             reachable: !choices.is_empty(),
             required_precision: self.required_precision,
-            recommendations: choices.iter().map(choice).collect::<Vec<_>>(),
+            recommendations: choices.iter().map(json).collect::<Vec<_>>(),
         }
     }
 
@@ -123,10 +111,8 @@ impl<T: Scalar + ExactText> Report<'_, T> {
                 "none: rationals do not round, so every tolerance is met".to_string()
             }
             Some(floor) => {
-                format!(
-                    "{} m: every larger tolerance is guaranteed for each method",
-                    floor.decimal(3, Round::Up)
-                )
+                let floor = floor.decimal(3, Round::Up);
+                format!("{floor} m: every larger tolerance is guaranteed for each method")
             }
             None => {
                 "none: with such a low precision, or such small numbers, nothing is guaranteed".to_string()
@@ -153,19 +139,19 @@ impl<T: Scalar + ExactText> Report<'_, T> {
 
     /// Explains which methods are not recommended.
     fn missing(&self) -> Option<String> {
-        let has =
-            |name| self.advice.recommendations.iter().any(|choice| MethodName::of(&choice.method) == name);
-        let missing = MethodName::value_variants().iter().filter(|name| !has(**name));
+        let choices = &self.advice.recommendations;
+        let recommended: Vec<_> = choices.iter().map(|choice| MethodName::of(&choice.method)).collect();
+        let missing = MethodName::value_variants().iter().filter(|name| !recommended.contains(name));
         let names: Vec<_> = missing.map(|name| name.name()).collect();
         let scalar = self.options.scalar;
-        let own = match scalar {
+        let digits = match scalar {
             NumberSystem::F32 => f32::MANTISSA_DIGITS,
             NumberSystem::F64 => f64::MANTISSA_DIGITS,
             NumberSystem::Mpfr(_) | NumberSystem::Exact => 0,
         };
         let bits = match self.required_precision {
-            Some(bits) if bits <= own => {
-                format!("a number is out of its range, but not of that of --scalar mpfr:{own}")
+            Some(bits) if bits <= digits => {
+                format!("a number is out of its range, but not of that of --scalar mpfr:{digits}")
             }
             Some(bits) => format!("--scalar mpfr:{bits} suffices for every method"),
             None => "no available precision suffices".to_string(),
@@ -182,36 +168,49 @@ impl<T: Scalar + ExactText> Report<'_, T> {
     /// Prints the command that runs the method.
     fn command(&self, out: &mut dyn Write, method: &Method<T>) -> io::Result<()> {
         let Options { system, tolerance, scalar, .. } = self.options;
-        let mut words = vec!["contact".to_string(), "solve".to_string()];
+        let mut words = ["contact", "solve"].map(String::from).to_vec();
         words.extend(system.options());
-        let mut option = |name: &str, value: String| words.extend([format!("--{name}"), value]);
-        option("method", MethodName::of(method).name());
+        words.extend(["--method".to_string(), MethodName::of(method).name()]);
         if let Some(penalty) = method.penalty() {
-            option("penalty", format_exact(&exact(penalty)));
+            words.extend(["--penalty".to_string(), format_exact(&exact(penalty))]);
         }
         if let Method::Augmented { .. } = method {
-            option("tolerance", tolerance.text.clone());
+            words.extend(["--tolerance".to_string(), tolerance.text.clone()]);
         }
         if *scalar != NumberSystem::F64 {
-            option("scalar", scalar.to_string());
+            words.extend(["--scalar".to_string(), scalar.to_string()]);
         }
         output::command(out, words.iter().map(String::as_str))
     }
 }
 
+fn json<T: Scalar + ExactText>(choice: &Recommendation<T>) -> impl Serialize + use<T> {
+    let penalty = choice.method.penalty();
+    record! {
+        method: MethodName::of(&choice.method).name(),
+        penalty: penalty.map(ExactText::text),
+        penalty_range: penalty
+            .map(|_| choice.penalty_range.each_ref().map(|end| end.as_ref().map(ExactText::text))),
+        augmentations: choice.augmentations,
+        penetration: choice.penetration.decimal(17, Round::Nearest),
+        force_error: choice.relative_force_error.as_ref().map(|error| error.decimal(3, Round::Up)),
+    }
+}
+
 fn row<T: Scalar + ExactText>(choice: &Recommendation<T>) -> [String; 7] {
-    let own = choice.method.penalty();
+    let penalty = choice.method.penalty();
+    let [from, to] = choice.penalty_range.each_ref().map(Option::as_ref);
     // Rounded inwards, except for the recommended penalty itself, which is formatted in one way.
-    let short = |x: Option<&T>, round| {
-        let round = if x == own { Round::Nearest } else { round };
-        x.map_or(String::new(), |x| exact(x).decimal(3, round))
-    };
-    let [from, to] = &choice.penalty_range;
+    let [penalty, from, to] =
+        [(penalty, Round::Nearest), (from, Round::Up), (to, Round::Down)].map(|(x, round)| {
+            let round = if x == penalty { Round::Nearest } else { round };
+            x.map_or(String::new(), |x| exact(x).decimal(3, round))
+        });
     [
         MethodName::of(&choice.method).name(),
-        short(own, Round::Nearest),
-        short(from.as_ref(), Round::Up),
-        short(to.as_ref(), Round::Down),
+        penalty,
+        from,
+        to,
         choice.augmentations.map_or(String::new(), |k| k.to_string()),
         choice.penetration.decimal(3, Round::Nearest),
         format!("{} N", choice.force_error.decimal(2, Round::Up)),

@@ -14,18 +14,19 @@ use std::ops::RangeInclusive;
 /// Returns the arguments if they are plain text, since others could garble the one line of an error.
 /// Arguments after `--` belong to another program and only have to be Unicode.
 pub fn checked_arguments() -> Result<Vec<String>, Failure> {
-    let text = |argument: OsString| {
-        let refused = |other| format!("argument {}: must be UTF-8 text", shortened(&format!("{other:?}")));
-        argument.into_string().map_err(refused)
-    };
-    let mut own = std::env::args_os().map(text).collect::<Result<Vec<_>, _>>()?;
-    let end = own.iter().position(|argument| argument == "--").unwrap_or(own.len());
-    let foreign = own.split_off(end);
-    if let Some(argument) = own.iter().find(|argument| !argument.chars().all(is_visible)) {
+    let mut arguments = std::env::args_os().map(checked_text).collect::<Result<Vec<_>, _>>()?;
+    let end = arguments.iter().position(|argument| argument == "--").unwrap_or(arguments.len());
+    let foreign = arguments.split_off(end);
+    if let Some(argument) = arguments.iter().find(|argument| !argument.chars().all(is_visible)) {
         let quoted = shortened(&format!("{argument:?}"));
         return Err(format!("argument {quoted}: must have no control characters").into());
     }
-    Ok([join_negative_values(own), foreign].concat())
+    Ok([join_negative_values(arguments), foreign].concat())
+}
+
+fn checked_text(argument: OsString) -> Result<String, String> {
+    let text = argument.into_string();
+    text.map_err(|other| format!("argument {}: must be UTF-8 text", shortened(&format!("{other:?}"))))
 }
 
 /// Joins values such as `-1/2` to the preceding option, `--gravity=-1/2`, because clap would take them for
@@ -94,11 +95,11 @@ pub fn exact<T: ToExact>(x: &T) -> Exact {
 }
 
 /// Largest number of digits of an integer that is written without a power of ten.
-const PLAIN: usize = 8;
+const MAX_PLAIN_DIGITS: usize = 8;
 
 /// Returns the shortest decimal equal to this number, or a fraction.
 pub fn format_exact(x: &Exact) -> String {
-    let decimals = (PLAIN..=100).map(|digits| x.decimal(digits, Round::Nearest));
+    let decimals = (MAX_PLAIN_DIGITS..=100).map(|digits| x.decimal(digits, Round::Nearest));
     let mut decimals = decimals.filter(|text| text.parse().as_ref() == Ok(x));
     decimals.next().unwrap_or_else(|| x.to_string())
 }
@@ -140,14 +141,9 @@ impl Number {
 }
 
 /// Returns the number systems without repetition.
-pub fn distinct(asked: &[NumberSystem]) -> Vec<NumberSystem> {
-    let mut distinct = Vec::new();
-    for scalar in asked {
-        if !distinct.contains(scalar) {
-            distinct.push(*scalar);
-        }
-    }
-    distinct
+pub fn distinct(scalars: &[NumberSystem]) -> Vec<NumberSystem> {
+    let scalars = scalars.iter().enumerate().filter(|(i, scalar)| !scalars[..*i].contains(scalar));
+    scalars.map(|(_, scalar)| *scalar).collect()
 }
 
 /// Calls a generic function in a number system; `like` is a zero of it.
@@ -243,7 +239,6 @@ const NUMBER: &str = "must be a number listed by `contact equations`, such as 1.
 
 /// Parses equation numbers; `theorem 1.3.3` consists of two words.
 pub fn equations(words: &[String]) -> Result<Vec<String>, Failure> {
-    let refused = |word: &str| invalid(word, "[NUMBER]...", NUMBER);
-    let entries = find_entries(words).map_err(refused)?;
+    let entries = find_entries(words).map_err(|word| invalid(word, "[NUMBER]...", NUMBER))?;
     Ok(entries.iter().map(|entry| entry.equation.to_string()).collect())
 }

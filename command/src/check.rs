@@ -78,10 +78,10 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     }
     let report = output::with_progress("checking", |progress| {
         let mut program = Program::new(&options.program, options.timeout);
-        let mut asked = 0;
+        let mut count = 0;
         check(&problems, &options.tolerance.value, |problem| {
-            asked += 1;
-            progress(asked, problems.len());
+            count += 1;
+            progress(count, problems.len());
             program.ask(problem)
         })
     })?;

@@ -4,7 +4,7 @@ use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter};
 use std::io::{self, Write};
 
 /// Nesting from which arrays and objects are on one line.
-const DEEP: usize = 8;
+const INLINE_DEPTH: usize = 8;
 
 /// A formatter of JSON.
 #[derive(Default)]
@@ -16,7 +16,7 @@ pub struct Indented {
 /// Calls a method of the formatter for the depth.
 macro_rules! by_depth {
     ($self:ident.$method:ident($($argument:expr),+)) => {
-        if $self.depth < DEEP { $self.pretty.$method($($argument),+) } else { CompactFormatter.$method($($argument),+) }
+        if $self.depth < INLINE_DEPTH { $self.pretty.$method($($argument),+) } else { CompactFormatter.$method($($argument),+) }
     };
 }
 

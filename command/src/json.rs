@@ -37,7 +37,7 @@ pub struct Object<'a>(pub Vec<(String, &'a RawValue)>);
 impl<'a> Object<'a> {
     /// Returns the value of a key, the first if there are several.
     pub fn get(&self, key: &str) -> Option<&'a RawValue> {
-        self.0.iter().find(|(own, _)| own == key).map(|(_, value)| *value)
+        self.0.iter().find(|(other, _)| other == key).map(|(_, value)| *value)
     }
 }
 

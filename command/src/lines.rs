@@ -6,11 +6,6 @@ pub const NO_BREAK_SPACE: char = '\u{a0}';
 /// Joins each operator or relation to its right operand, and factors and quotients to each other, by no-break
 /// spaces: a line is broken before an operator, and products stay together.
 pub fn join_operands(text: &str) -> String {
-    let is_operator = |word: &str| ["+", "−", "/", "=", "≠", "<", ">", "≤", "≥", "→"].contains(&word);
-    let is_factor = |word: &str| {
-        let letters = word.chars().filter(|c| c.is_alphabetic()).count();
-        letters < 2 && !is_operator(word) && !word.ends_with([',', ';', ':'])
-    };
     let words: Vec<&str> = text.split(' ').collect();
     let mut all = words.first().unwrap_or(&"").to_string();
     for pair in words.windows(2) {
@@ -20,6 +15,16 @@ pub fn join_operands(text: &str) -> String {
         all.push_str(next);
     }
     all
+}
+
+fn is_operator(word: &str) -> bool {
+    ["+", "−", "/", "=", "≠", "<", ">", "≤", "≥", "→"].contains(&word)
+}
+
+/// Returns `true` for a symbol or a number that no punctuation ends.
+fn is_factor(word: &str) -> bool {
+    let letters = word.chars().filter(|c| c.is_alphabetic()).count();
+    letters < 2 && !is_operator(word) && !word.ends_with([',', ';', ':'])
 }
 
 #[cfg(test)]

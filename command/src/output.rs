@@ -20,13 +20,13 @@ use std::time::Duration;
 pub const WIDTH: u8 = 80;
 
 /// Columns for text on the narrowest terminal.
-const NARROWEST: u16 = 40;
+const MIN_WIDTH: u16 = 40;
 
 /// Returns the number of columns of a line: that of the terminal, if stdout is one.
 pub fn width() -> usize {
     // Tests print into memory, although they may run in a terminal.
     let terminal = if cfg!(test) { None } else { terminal_size::terminal_size_of(io::stdout()) };
-    terminal.map_or(WIDTH.into(), |(width, _)| width.0.max(NARROWEST)).into()
+    terminal.map_or(WIDTH.into(), |(width, _)| width.0.max(MIN_WIDTH)).into()
 }
 
 /// Returns `true` unless the character is a control character of any kind; some that reverse or end a line
@@ -42,8 +42,7 @@ pub fn shortened(text: &str) -> String {
 
 /// Like [`shortened`], with at most `most` characters.
 pub fn shortened_to(text: &str, most: usize) -> String {
-    let shown = |c| if is_visible(c) { c } else { char::REPLACEMENT_CHARACTER };
-    let text = text.chars().map(shown);
+    let text = text.chars().map(|c| if is_visible(c) { c } else { char::REPLACEMENT_CHARACTER });
     if text.clone().nth(most).is_none() {
         text.collect()
     } else {
@@ -201,6 +200,11 @@ fn empty_table() -> Table {
     table
 }
 
+/// Formats a number with the noun that it counts.
+pub fn counted(count: u64, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}
+
 /// Formats a point so that lines are broken only between its numbers.
 pub fn join_coordinates(point: &impl ToString) -> String {
     point.to_string().replace(" = ", &format!("{NO_BREAK_SPACE}={NO_BREAK_SPACE}"))
@@ -250,29 +254,31 @@ pub fn with_progress<T>(what: &str, work: impl FnOnce(&(dyn Fn(usize, usize) + S
         return work(&|_, _| {});
     }
     let (done, all) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let bar = |working: Receiver<()>| {
-        if working.recv_timeout(Duration::from_secs(1)) != Err(RecvTimeoutError::Timeout) {
-            return;
-        }
-        let style = ProgressStyle::with_template(&format!("{what} {{bar:40}} {{percent:>3}} %"));
-        let bar = ProgressBar::new(0).with_style(style.unwrap_or(ProgressStyle::default_bar()));
-        while working.recv_timeout(Duration::from_millis(100)) == Err(RecvTimeoutError::Timeout) {
-            bar.update(|state| {
-                state.set_len(all.load(Ordering::Relaxed) as u64);
-                state.set_pos(done.load(Ordering::Relaxed) as u64);
-            });
-        }
-        bar.finish_and_clear();
-    };
     thread::scope(|scope| {
         // The channel is closed when the work ends.
         let (_work, working) = mpsc::channel();
-        scope.spawn(|| bar(working));
+        scope.spawn(|| draw_progress(what, working, &done, &all));
         work(&|now, of| {
             all.store(of, Ordering::Relaxed);
             done.fetch_max(now, Ordering::Relaxed);
         })
     })
+}
+
+/// Draws a progress bar until the channel is closed, if that takes longer than a second.
+fn draw_progress(what: &str, working: Receiver<()>, done: &AtomicUsize, all: &AtomicUsize) {
+    if working.recv_timeout(Duration::from_secs(1)) != Err(RecvTimeoutError::Timeout) {
+        return;
+    }
+    let style = ProgressStyle::with_template(&format!("{what} {{bar:40}} {{percent:>3}} %"));
+    let bar = ProgressBar::new(0).with_style(style.unwrap_or(ProgressStyle::default_bar()));
+    while working.recv_timeout(Duration::from_millis(100)) == Err(RecvTimeoutError::Timeout) {
+        bar.update(|state| {
+            state.set_len(all.load(Ordering::Relaxed) as u64);
+            state.set_pos(done.load(Ordering::Relaxed) as u64);
+        });
+    }
+    bar.finish_and_clear();
 }
 
 /// Prints a message of clap: help and version to stdout, an error as one line.
@@ -304,9 +310,9 @@ pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Exit, F
         _ => String::new(),
     };
     let text = error.render().to_string();
-    let lines = text.lines().map(str::trim);
-    let said = lines.take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"));
-    let line = said.filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ");
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let message = lines.take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"));
+    let line = message.collect::<Vec<_>>().join("; ");
     let line = line.strip_prefix("error: ").unwrap_or(&line).replace(":; ", ": ");
     Err(Failure::Input(format!("{line}{allowed}")))
 }

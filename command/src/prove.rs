@@ -5,14 +5,13 @@ use crate::lines::join_operands;
 use crate::output::{self, Exit, Failure, formats};
 use spring_mass_contact::claims::{Entry, entry, registry, statements};
 use spring_mass_contact::proof::coq::Omitted;
-use spring_mass_contact::proof::mutation::{DropOutcome, DroppedHypothesis, MutationOutcome};
+use spring_mass_contact::proof::mutation::{self, DropOutcome, DroppedHypothesis, MutationOutcome};
 use spring_mass_contact::proof::render::{self, ProofPrinter};
 use spring_mass_contact::proof::tightest_point;
 use spring_mass_contact::verify::coq;
 use spring_mass_contact::verify::proofs::{ProofAttempt, ProofOutcome, Proofs, Summary, prove_equations};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 use std::{fs, process};
 
 const EXAMPLES: &str = "\
@@ -62,8 +61,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     }
     let numbers = args::equations(&options.numbers)?;
     let statements = statements();
-    let empty = |number: &&String| statements.iter().all(|s| s.equation() != number.as_str());
-    if let Some(empty) = numbers.iter().find(empty) {
+    if let Some(empty) = numbers.iter().find(|number| statements.iter().all(|s| s.equation() != **number)) {
         let reason = format!("it has no claim to be proved; see `contact equations '{empty}'`");
         return Err(args::invalid(empty, "[NUMBER]...", reason));
     }
@@ -104,23 +102,23 @@ fn make_writable(directory: &Path) -> io::Result<()> {
     fs::write(&file, "").and_then(|()| fs::remove_file(&file))
 }
 
-fn how(proved: &ProofAttempt) -> String {
-    match &proved.answer {
+fn outcome_in_words(attempt: &ProofAttempt) -> String {
+    match &attempt.answer {
         ProofOutcome::Proof(proof) => render::proof_summary(proof),
-        ProofOutcome::None(..) => proved.status().to_uppercase(),
+        ProofOutcome::None(..) => attempt.status().to_uppercase(),
     }
 }
 
 fn table(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
-    let rows = proofs.claims.iter().map(|proved| {
-        let ProofAttempt { statement, answer, time } = proved;
+    let rows = proofs.claims.iter().map(|attempt| {
+        let ProofAttempt { statement, answer, time } = attempt;
         let hypotheses = match answer {
             ProofOutcome::Proof(proof) => printer().used(proof),
-            ProofOutcome::None(..) => proved.hypotheses(),
+            ProofOutcome::None(..) => attempt.hypotheses(),
         };
         let label = entry(statement.equation()).map(Entry::label).unwrap_or_default();
         let time = format!("{:.2}", time.as_secs_f64() * 1e3);
-        [label, statement.name().to_string(), how(proved), hypotheses.join(", "), time]
+        [label, statement.name().to_string(), outcome_in_words(attempt), hypotheses.join(", "), time]
     });
     output::table(out, ["number", "claim", "how", "by hypotheses", "ms"], rows, 2..4)?;
     print_problems(out, proofs)?;
@@ -131,37 +129,30 @@ fn table(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
 /// Prints each problem after a blank line.
 fn print_problems(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     for ProofAttempt { statement, answer, .. } in &proofs.claims {
-        let (equation, name) = (statement.equation(), statement.name());
-        match answer {
-            ProofOutcome::Proof(_) => {}
-            ProofOutcome::None(reason, None) => {
-                writeln!(out)?;
-                output::wrapped(out, "", 2, &format!("{equation} {name} UNKNOWN: {reason}"))?;
-                output::wrapped(out, "  ", 4, &join_operands(&printer().claim(statement)))?;
-            }
-            ProofOutcome::None(_, Some(counterexample)) => {
-                writeln!(out, "\n{equation} {name} REFUTED")?;
-                output::wrapped(out, "  ", 4, &join_operands(&printer().claim(statement)))?;
-                output::wrapped(out, "  at ", 4, &output::join_coordinates(counterexample))?;
-            }
+        let ProofOutcome::None(reason, counterexample) = answer else { continue };
+        let status = counterexample.as_ref().map_or(format!("UNKNOWN: {reason}"), |_| "REFUTED".to_string());
+        writeln!(out)?;
+        output::wrapped(out, "", 2, &format!("{} {} {status}", statement.equation(), statement.name()))?;
+        output::wrapped(out, "  ", 4, &join_operands(&printer().claim(statement)))?;
+        if let Some(point) = counterexample {
+            output::wrapped(out, "  at ", 4, &output::join_coordinates(point))?;
         }
     }
-    let redundant = proofs.mutation.redundant_hypotheses().map(
-        |DroppedHypothesis { equation, name, hypothesis: given, outcome: without }| {
-            let what = match without {
-                DropOutcome::StillProved => "is not needed: the claim is proved without it",
-                DropOutcome::Undecided | DropOutcome::Refuted(_) => {
-                    "may not be needed: no counterexample to the claim without it was found"
-                }
-            };
-            format!("{equation} {name}: the hypothesis {} {what}", registry().format_hypothesis(given))
-        },
-    );
-    let unnoticed = proofs.mutation.mutants.iter().filter_map(|(change, effect)| match effect {
-        MutationOutcome::Undetected => Some(format!("UNNOTICED {}: {}", change.site, change.mutation)),
+    let redundant = proofs.mutation.redundant_hypotheses().map(|dropped| {
+        let DroppedHypothesis { equation, name, hypothesis, outcome } = dropped;
+        let finding = match outcome {
+            DropOutcome::StillProved => "is not needed: the claim is proved without it",
+            DropOutcome::Undecided | DropOutcome::Refuted(_) => {
+                "may not be needed: no counterexample to the claim without it was found"
+            }
+        };
+        format!("{equation} {name}: the hypothesis {} {finding}", registry().format_hypothesis(hypothesis))
+    });
+    let undetected = proofs.mutation.mutants.iter().filter_map(|(mutant, outcome)| match outcome {
+        MutationOutcome::Undetected => Some(format!("UNNOTICED {}: {}", mutant.site, mutant.mutation)),
         MutationOutcome::Detected { .. } | MutationOutcome::Equivalent => None,
     });
-    redundant.chain(unnoticed).try_for_each(|line| {
+    redundant.chain(undetected).try_for_each(|line| {
         writeln!(out)?;
         output::wrapped(out, "", 2, &line)
     })
@@ -169,8 +160,7 @@ fn print_problems(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
 
 fn totals(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     let Summary { claims, proved, hypotheses, controls, .. } = proofs.summary();
-    let seconds = |time: Duration| time.as_secs_f64();
-    writeln!(out, "{proved} of {claims} claims proved in {:.3} s.", seconds(proofs.proof_time))?;
+    writeln!(out, "{proved} of {claims} claims proved in {:.3} s.", proofs.proof_time.as_secs_f64())?;
     if proved < claims {
         return writeln!(out, "Mutations are tested when all claims are proved.");
     }
@@ -178,14 +168,13 @@ fn totals(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     let needed = dropped.iter().filter(|dropped| matches!(dropped.outcome, DropOutcome::Refuted(_))).count();
     let fine = dropped.iter().filter(|dropped| dropped.is_precision_only()).count();
     writeln!(out, "{needed} of {hypotheses} hypotheses needed, {fine} only for a higher precision.")?;
-    let (mutations, refuted, equivalent) = (controls.mutations, controls.detected, controls.equivalent);
-    let detected = refuted + equivalent;
+    let mutation::Summary { mutations, detected, equivalent, .. } = controls;
     let total = format!(
-        "{detected} of {mutations} mutations of formulas detected: {refuted} refuted, \
-         {equivalent} proved equivalent."
+        "{} of {mutations} mutations of formulas detected: {detected} refuted, {equivalent} proved equivalent.",
+        detected + equivalent
     );
     output::wrapped(out, "", 2, &total)?;
-    writeln!(out, "{:.3} s in all.", seconds(proofs.total_time))
+    writeln!(out, "{:.3} s in all.", proofs.total_time.as_secs_f64())
 }
 
 /// Prints the proofs.
@@ -197,72 +186,74 @@ fn details(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
         if let Some(entry) = entry(claims[0].statement.equation()) {
             writeln!(out, "{} {}", entry.label(), entry.title)?;
         }
-        for proved in claims {
+        for attempt in claims {
             writeln!(out)?;
-            print_claim(out, proofs, proved)?;
+            print_claim(out, proofs, attempt)?;
         }
     }
     let detected = proofs.mutation.summary().detected;
     if detected > 0 {
-        let noticed =
+        let detected =
             format!("These claims detect {detected} mutations of formulas; --format json lists them.");
         writeln!(out)?;
-        output::wrapped(out, "", 2, &noticed)?;
+        output::wrapped(out, "", 2, &detected)?;
     }
     print_problems(out, proofs)
 }
 
-fn print_claim(out: &mut dyn Write, proofs: &Proofs, proved: &ProofAttempt) -> io::Result<()> {
-    let ProofAttempt { statement, answer, .. } = proved;
-    writeln!(out, "{} ({})", statement.name(), how(proved))?;
-    let mut say = |what: &str, lines: &[String]| {
-        lines.iter().enumerate().try_for_each(|(i, line)| {
-            let what = if i == 0 { what } else { "" };
-            let text = line.trim_start();
-            let first = format!("  {what:<8} {}", " ".repeat(line.len() - text.len()));
-            // Indented more than the next line of a proof.
-            output::wrapped(out, &first, first.len() + 4, &join_operands(text))
-        })
-    };
-    say("claim", &[printer().claim(statement)])?;
+fn print_claim(out: &mut dyn Write, proofs: &Proofs, attempt: &ProofAttempt) -> io::Result<()> {
+    let ProofAttempt { statement, answer, .. } = attempt;
+    writeln!(out, "{} ({})", statement.name(), outcome_in_words(attempt))?;
+    print_lines(out, "claim", &[printer().claim(statement)])?;
     if !statement.hypotheses().is_empty() {
-        say("if", &[proved.hypotheses().join(", ")])?;
+        print_lines(out, "if", &[attempt.hypotheses().join(", ")])?;
     }
-    let always = printer().invariants(statement);
-    if !always.is_empty() {
-        let every = statement.conclusion().map(|_| format!(" for every {}", printer().index(statement)));
-        let every = every.unwrap_or_default();
-        say("always", &[format!("{}{every}, which is part of the proof", always.join(", "))])?;
+    let invariants = printer().invariants(statement);
+    if !invariants.is_empty() {
+        let index = statement.conclusion().map(|_| format!(" for every {}", printer().index(statement)));
+        let (invariants, index) = (invariants.join(", "), index.unwrap_or_default());
+        print_lines(out, "always", &[format!("{invariants}{index}, which is part of the proof")])?;
     }
-    say("where", &printer().names(statement))?;
+    print_lines(out, "where", &printer().names(statement))?;
     match answer {
-        ProofOutcome::Proof(proof) => say("proof", &printer().proof(proof))?,
-        ProofOutcome::None(reason, _) => say("no proof", std::slice::from_ref(reason))?,
+        ProofOutcome::Proof(proof) => print_lines(out, "proof", &printer().proof(proof))?,
+        ProofOutcome::None(reason, _) => print_lines(out, "no proof", std::slice::from_ref(reason))?,
     }
-    let needed = proofs.dropped(statement).filter_map(
-        |DroppedHypothesis { hypothesis: given, outcome: without, .. }| match without {
-            DropOutcome::Refuted(refutation) => {
-                let at = output::join_coordinates(&refutation.counterexample());
-                Some(format!("{}: without it, at {at}", registry().format_hypothesis(given)))
-            }
-            DropOutcome::StillProved | DropOutcome::Undecided => None,
-        },
-    );
-    say("needs", &needed.collect::<Vec<_>>())?;
-    let sharp =
-        statement.contains_rounding().then(|| tightest_point(statement)).flatten().map(|(point, share)| {
-            let percent = (100.0 * share.as_rational().to_f64()).floor();
-            format!("{percent} % of the bound attained at {}", output::join_coordinates(&point))
-        });
-    say("sharp", &sharp.into_iter().collect::<Vec<_>>())
+    let needed = proofs.dropped(statement).filter_map(|dropped| match &dropped.outcome {
+        DropOutcome::Refuted(refutation) => {
+            let hypothesis = registry().format_hypothesis(&dropped.hypothesis);
+            let point = output::join_coordinates(&refutation.counterexample());
+            Some(format!("{hypothesis}: without it, at {point}"))
+        }
+        DropOutcome::StillProved | DropOutcome::Undecided => None,
+    });
+    print_lines(out, "needs", &needed.collect::<Vec<_>>())?;
+    if let Some((point, share)) = statement.contains_rounding().then(|| tightest_point(statement)).flatten() {
+        let percent = (100.0 * share.as_rational().to_f64()).floor();
+        let point = output::join_coordinates(&point);
+        print_lines(out, "sharp", &[format!("{percent} % of the bound attained at {point}")])?;
+    }
+    Ok(())
+}
+
+/// Prints lines after a name, each continued with a deeper indent than that of the next line of a proof.
+fn print_lines(out: &mut dyn Write, name: &str, lines: &[String]) -> io::Result<()> {
+    for (i, line) in lines.iter().enumerate() {
+        let text = line.trim_start();
+        let first =
+            format!("  {:<8} {}", if i == 0 { name } else { "" }, " ".repeat(line.len() - text.len()));
+        output::wrapped(out, &first, first.len() + 4, &join_operands(text))?;
+    }
+    Ok(())
 }
 
 fn markdown(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
-    let rows = proofs.claims.iter().map(|proved| {
-        let (equation, name) = (proved.statement.equation(), proved.statement.name());
-        let [number, name, status] = [equation, name, proved.status()].map(String::from);
-        let hypotheses = proved.hypotheses().join(", ");
-        [number, name, printer().claim(&proved.statement), hypotheses, how(proved), status]
+    let rows = proofs.claims.iter().map(|attempt| {
+        let statement = &attempt.statement;
+        let [number, name, status] =
+            [statement.equation(), statement.name(), attempt.status()].map(String::from);
+        let hypotheses = attempt.hypotheses().join(", ");
+        [number, name, printer().claim(statement), hypotheses, outcome_in_words(attempt), status]
     });
     output::markdown(out, ["number", "claim", "says", "if", "how", "status"], rows)
 }

@@ -136,19 +136,19 @@ impl Options {
             method: self.method(like)?,
             plane: if self.bilateral { Plane::Bilateral } else { Plane::Unilateral },
         };
-        let out_of_range =
-            |error: SolveError| format!("{} {}: {error}", self.names().of("--scalar"), self.scalar);
         let needed = problem.steps_needed();
-        let solve = |progress: &dyn Fn(usize, usize)| problem.solve(needed.as_ref(), progress);
-        let solution =
-            if self.batch { solve(&|_, _| {}) } else { output::with_progress("solving", |bar| solve(bar)) };
-        let solution = solution.map_err(out_of_range)?;
+        let solution = if self.batch {
+            problem.solve(needed.as_ref(), &|_, _| {})
+        } else {
+            output::with_progress("solving", |progress| problem.solve(needed.as_ref(), progress))
+        };
+        let solution = solution.map_err(|error| self.out_of_range(error))?;
         if self.trace
             && !problem.trace(&solution).all(|iterate| quantities(&iterate).iter().all(|x| x.is_finite()))
         {
-            return Err(out_of_range(SolveError::OutOfRange { quantity: "trace" }).into());
+            return Err(self.out_of_range(SolveError::OutOfRange { quantity: "trace" }));
         }
-        let kkt = solution.certificate(&problem.system).map_err(out_of_range)?;
+        let kkt = solution.certificate(&problem.system).map_err(|error| self.out_of_range(error))?;
         let steps_needed = needed.map(|steps| steps.to_string());
         let report = Report { options: self, problem: &problem, solution: &solution, kkt, steps_needed };
         match self.format {
@@ -160,6 +160,10 @@ impl Options {
         Ok(Exit::from_result(matches!(solution.outcome, Outcome::Direct | Outcome::Converged)))
     }
 
+    fn out_of_range(&self, error: SolveError) -> Failure {
+        Failure::Input(format!("{} {}: {error}", self.names().of("--scalar"), self.scalar))
+    }
+
     /// Returns the form of names in errors: keys for a line of JSON, otherwise options.
     fn names(&self) -> NameStyle {
         if self.batch { NameStyle::Keys } else { NameStyle::Options }
@@ -167,22 +171,23 @@ impl Options {
 
     /// Refuses an option without effect, which indicates a misunderstanding.
     fn refuse_unused(&self) -> Result<(), Failure> {
-        let typed = |number: &Option<Number>| number.as_ref().map(|n| format!(" {}", shortened(&n.text)));
+        let [penalty, tolerance, start] = [&self.penalty, &self.tolerance, &self.initial_multiplier]
+            .map(|number| number.as_ref().map(|number| format!(" {}", shortened(&number.text))));
         let options = [
-            ("--penalty", typed(&self.penalty), "penalty or augmented"),
-            ("--tolerance", typed(&self.tolerance), "augmented"),
+            ("--penalty", penalty, "penalty or augmented"),
+            ("--tolerance", tolerance, "augmented"),
             ("--max-augmentations", self.max_augmentations.map(|n| format!(" {n}")), "augmented"),
-            ("--initial-multiplier", typed(&self.initial_multiplier), "augmented"),
+            ("--initial-multiplier", start, "augmented"),
             ("--trace", self.trace.then(String::new), "augmented"),
         ];
-        let own = self.method.name();
+        let selected = self.method.name();
         for (option, value, methods) in options {
             if let Some(value) = value
-                && !methods.contains(&own)
+                && !methods.contains(&selected)
             {
                 let [option, method] = [option, "--method"].map(|name| self.names().of(name));
                 return Err(Failure::Input(format!(
-                    "'{option}{value}' has no effect with {method} {own}; use it with {method} {methods}"
+                    "'{option}{value}' has no effect with {method} {selected}; use it with {method} {methods}"
                 )));
             }
         }
@@ -195,32 +200,28 @@ impl Options {
     }
 
     fn method<T: Scalar + ExactText>(&self, like: &T) -> Result<Method<T>, Failure> {
+        let names = self.names();
         let ten_c = &self.system.stiffness.value * Exact::from(10);
-        let name = |option| self.names().of(option);
-        let round_penalty = |number: &Number| number.round(name("--penalty <E>"), like);
         Ok(match self.method {
             MethodName::Lagrange => Method::Lagrange,
-            MethodName::Penalty => Method::Penalty {
-                penalty: round_penalty(self.penalty.as_ref().ok_or_else(|| {
+            MethodName::Penalty => {
+                let penalty = self.penalty.as_ref().ok_or_else(|| {
+                    let [method, value, option] =
+                        ["--method", "--penalty <E>", "--penalty"].map(|name| names.of(name));
                     let example = shortened(&ten_c.to_string());
-                    format!(
-                        "{} penalty needs '{}', greater than 0; for example 10 c: {} {example}",
-                        name("--method"),
-                        name("--penalty <E>"),
-                        name("--penalty")
-                    )
-                })?)?,
-            },
+                    format!("{method} penalty needs '{value}', greater than 0; for example 10 c: {option} {example}")
+                })?;
+                Method::Penalty { penalty: penalty.round(names.of("--penalty <E>"), like)? }
+            }
             MethodName::Augmented => {
-                let or = |number: &Option<Number>, text: &str, value: Exact| {
-                    number.clone().unwrap_or_else(|| Number { text: text.to_string(), value })
-                };
-                let start = or(&self.initial_multiplier, "0", Exact::zero());
+                let ten_c = Number { text: "10 c, the default".to_string(), value: ten_c };
+                let zero = Number { text: "0".to_string(), value: Exact::zero() };
+                let (penalty, start) = (self.penalty.as_ref(), self.initial_multiplier.as_ref());
                 Method::Augmented {
-                    penalty: round_penalty(&or(&self.penalty, "10 c, the default", ten_c))?,
-                    tolerance: self.tolerance().round(name("--tolerance <T>"), like)?,
+                    penalty: penalty.unwrap_or(&ten_c).round(names.of("--penalty <E>"), like)?,
+                    tolerance: self.tolerance().round(names.of("--tolerance <T>"), like)?,
                     max_augmentations: self.max_augmentations.unwrap_or(MAX_AUGMENTATIONS),
-                    start: start.round(name("--initial-multiplier <L>"), like)?,
+                    start: start.unwrap_or(&zero).round(names.of("--initial-multiplier <L>"), like)?,
                 }
             }
         })
@@ -235,7 +236,7 @@ struct Problem<T> {
 }
 
 impl<T: Scalar + ExactText> Problem<T> {
-    /// Progress is relative to the number of steps in exact arithmetic.
+    /// Solves, with progress relative to the number of steps in exact arithmetic.
     fn solve(
         &self,
         needed: Option<&Integer>,
@@ -247,9 +248,10 @@ impl<T: Scalar + ExactText> Problem<T> {
             }
             Method::Lagrange | Method::Penalty { .. } => 0,
         };
-        let count = |k: u64| usize::try_from(k).unwrap_or(usize::MAX);
-        let each = |step: &Iterate<T>| progress(count(step.k), count(steps));
-        solve_observed(&self.system, &self.method, self.plane, each)
+        solve_observed(&self.system, &self.method, self.plane, |step| {
+            let [k, steps] = [step.k, steps].map(|count| usize::try_from(count).unwrap_or(usize::MAX));
+            progress(k, steps)
+        })
     }
 
     /// Recomputes the augmentations of a solution, which is cheaper than storing them.

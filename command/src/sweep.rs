@@ -66,9 +66,9 @@ const PENALTY: &str = "--penalty <FROM..TO>";
 /// Widths of the table's columns: with a blank before each they fit a page.
 const WIDTHS: [usize; 7] = [10, 11, 11, 11, 9, 11, 9];
 
-/// Largest number of digits in a table, and of an error and in a text.
+/// Largest number of digits of a quantity in a table, and of an error there and a number in a note.
 const DIGITS: usize = 8;
-const FEW: usize = 3;
+const SHORT_DIGITS: usize = 3;
 
 /// Number of digits of an error in CSV, for plots.
 const ERROR_DIGITS: usize = 6;
@@ -79,11 +79,12 @@ fn range(text: &str) -> Result<(Number, Number), String> {
         return Err("must be FROM..TO with two dots, not three, such as 1..1e12".to_string());
     }
     let (from, to) = text.split_once("..").ok_or("must be FROM..TO, such as 1..1e12")?;
-    let end = |name: &str, text| {
-        parse_positive(text).map_err(|error| format!("{name} '{}': {error}", shortened(text)))
-    };
-    let (from, to) = (end("FROM", from)?, end("TO", to)?);
+    let (from, to) = (end_of_range("FROM", from)?, end_of_range("TO", to)?);
     if from.value < to.value { Ok((from, to)) } else { Err("FROM must be less than TO".to_string()) }
+}
+
+fn end_of_range(name: &str, text: &str) -> Result<Number, String> {
+    parse_positive(text).map_err(|error| format!("{name} '{}': {error}", shortened(text)))
 }
 
 /// Sweeps and prints the rows.
@@ -99,26 +100,32 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     Ok(Exit::from_result(rows.iter().all(|row| row.error.is_none())))
 }
 
+/// Sweeps in each number system, and reports the number of finished rows of all.
 fn sweeps(options: &Options, progress: &dyn Fn(usize, usize)) -> Result<Vec<Sweep>, Failure> {
+    let penalties = penalty_values(options)?;
+    let scalars = args::distinct(&options.scalars);
+    let scalars = if scalars.is_empty() { vec![NumberSystem::F64] } else { scalars };
+    let rows = scalars.len() * penalties.len();
+    let mut sweeps = Vec::new();
+    for scalar in scalars {
+        let finished = sweeps.len() * penalties.len();
+        let sweeping = Sweeping { options, penalties: &penalties, scalar };
+        sweeps.push(in_scalar!(scalar, |like| sweeping.run(like, |row| progress(finished + row, rows)))?);
+    }
+    Ok(sweeps)
+}
+
+/// Returns the penalties of the range.
+fn penalty_values(options: &Options) -> Result<Vec<Number>, Failure> {
     let (from, to) = &options.penalty;
-    let refused = |error| {
+    let values = penalties(&from.value, &to.value, options.points as u32).map_err(|error| {
         let allowed = match error {
             SolveError::Invalid { argument, allowed, .. } => format!("the {argument} must be {allowed}"),
             other => other.to_string(),
         };
         args::invalid(&format!("{}..{}", from.text, to.text), PENALTY, allowed)
-    };
-    let penalties = penalties(&from.value, &to.value, options.points as u32).map_err(refused)?;
-    let number = |value| Number { text: format_exact(&value), value };
-    let penalties: Vec<_> = penalties.into_iter().map(number).collect();
-    let scalars = args::distinct(&options.scalars);
-    let scalars = if scalars.is_empty() { vec![NumberSystem::F64] } else { scalars };
-    let made = |(i, scalar): (usize, &NumberSystem)| {
-        let sweeping = Sweeping { options, penalties: &penalties, scalar: *scalar };
-        let each = |row| progress(i * penalties.len() + row, scalars.len() * penalties.len());
-        in_scalar!(*scalar, |like| sweeping.run(like, each))
-    };
-    scalars.iter().enumerate().map(made).collect()
+    })?;
+    Ok(values.into_iter().map(|value| Number { text: format_exact(&value), value }).collect())
 }
 
 /// Formatted rows of one number system, with notes.
@@ -153,11 +160,10 @@ struct Sweeping<'a> {
 impl Sweeping<'_> {
     fn run<T: Scalar + ExactText>(&self, like: &T, each: impl Fn(usize)) -> Result<Sweep, Failure> {
         let system = self.options.system.round(NameStyle::Options, like)?;
-        let round = |eps: &Number| eps.round(PENALTY, like);
-        let rounded = self.penalties.iter().map(round).collect::<Result<Vec<T>, _>>()?;
+        let rounded: Vec<T> =
+            self.penalties.iter().map(|eps| eps.round(PENALTY, like)).collect::<Result<_, _>>()?;
         let (mut rows, mut curves) = (Vec::new(), Curve::pair());
-        // Error of the first row with an error.
-        let mut refused = None;
+        let mut first_error = None;
         let mut least: Option<(Exact, &str)> = None;
         for ((i, row), eps) in (1..).zip(sweep(&system, rounded.iter().cloned())).zip(self.penalties) {
             match &row {
@@ -174,15 +180,15 @@ impl Sweeping<'_> {
                 }
                 Err(error) => {
                     let at = format!("--scalar {}, --penalty {}", self.scalar, shortened(&eps.text));
-                    refused.get_or_insert(format!("{at}: {error}"));
+                    first_error.get_or_insert(format!("{at}: {error}"));
                 }
             }
             rows.push(self.row(eps, row));
             each(i);
         }
-        match refused {
+        match first_error {
             // An error in every row is an error of the system.
-            Some(refused) if rows.iter().all(|row: &Row| row.error.is_some()) => Err(refused.into()),
+            Some(error) if rows.iter().all(|row: &Row| row.error.is_some()) => Err(error.into()),
             _ => {
                 let notes = self.notes(&system, &rounded, least);
                 Ok(Sweep { scalar: self.scalar, rows, notes, curves })
@@ -193,100 +199,111 @@ impl Sweeping<'_> {
     /// Returns a formatted row: within the width of a column for tables, otherwise in full.
     fn row<T: ExactText>(&self, eps: &Number, row: Result<SweepRow<T>, SolveError>) -> Row {
         let format = self.options.format;
-        let people = format == Format::Table;
-        let value = |x: &T, width| if people { exact(x).decimal_within(DIGITS, width) } else { x.text() };
-        let error = |x: &Option<Exact>, width| {
-            x.as_ref().map(|x| match format {
-                Format::Table => x.decimal_within(FEW, width),
-                Format::Json => x.text(),
-                Format::Csv => x.decimal(ERROR_DIGITS, Round::Nearest),
-            })
-        };
         let [width, u, p, force, force_error, penalty_force, penalty_force_error] = WIDTHS;
-        let penalty = if people { eps.value.decimal_within(DIGITS, width) } else { eps.text.clone() };
+        let in_table = format == Format::Table;
+        let penalty = if in_table { eps.value.decimal_within(DIGITS, width) } else { eps.text.clone() };
         let head = Row { scalar: self.scalar.to_string(), penalty, ..Row::default() };
         match row {
             Err(error) => Row { error: Some(error.to_string()), ..head },
             Ok(row) => Row {
-                deflection: Some(value(&row.deflection, u)),
-                penetration: Some(value(&row.penetration, p)),
-                contact_force: Some(value(&row.contact_force, force)),
-                penalty_force: row.penalty_force.as_ref().map(|x| value(x, penalty_force)),
-                force_error: error(&row.force_error, force_error),
-                penalty_force_error: error(&row.penalty_force_error, penalty_force_error),
+                deflection: Some(format.quantity(&row.deflection, u)),
+                penetration: Some(format.quantity(&row.penetration, p)),
+                contact_force: Some(format.quantity(&row.contact_force, force)),
+                penalty_force: row.penalty_force.as_ref().map(|x| format.quantity(x, penalty_force)),
+                force_error: format.error(row.force_error.as_ref(), force_error),
+                penalty_force_error: format.error(row.penalty_force_error.as_ref(), penalty_force_error),
                 ..head
             },
         }
     }
 
-    /// Returns notes on the rows.
+    /// Describes the errors: their source, the least one, the best penalty and the end of augmentations.
     fn notes<T: Scalar + ExactText>(
         &self,
         system: &SpringMass<T>,
         penalties: &[T],
         least: Option<(Exact, &str)>,
     ) -> Vec<String> {
-        let eta = self.scalar.unit_roundoff();
-        let few = |x: &Exact| x.decimal(FEW, Round::Nearest);
-        let s = system.map(exact);
         let Some((least, at)) = least else {
-            let without = match State::of(system) {
+            let reason = match State::of(system) {
                 Ok(State::Separated) => "The mass is separated from the plane, so there is no force ε p.",
                 _ => "Grazing: the contact force is 0, so there are no relative errors.",
             };
-            return vec![without.to_string()];
+            return vec![reason.to_string()];
         };
-        let (r, c) = (system::reaction(&s), &system.c);
-        let mut notes = vec![format!(
+        let reaction = system::reaction(&system.map(exact));
+        let stiffness = format!(
             "R = {} N for the rounded parameters, of which the spring carries c/(c + ε): from \
              ε = c = {} N/m on this error decreases like 1/ε, with the slope −1.",
-            few(&r),
-            few(&exact(c)),
-        )];
-        if self.scalar == NumberSystem::Exact {
-            notes.push("Rationals do not round: there is no other error.".to_string());
-            return notes;
-        }
-        let seen = format!("The smallest error here is {} at ε = {} N/m.", few(&least), shortened(at));
-        let bound = |eps: &T| {
-            penalty_force_bound(system, eps, &eta).ok().flatten().map_or(String::new(), |bound| few(&bound))
-        };
-        notes.push(match best_penalty(system, &eta) {
-            Ok(Some(best)) => format!(
-                "ε p amplifies the rounding error of p: the best bound is that of ε = {} N/m, where ε p is \
-                 within {} of R. {seen}",
-                few(&exact(&best)),
-                bound(&best)
-            ),
-            Ok(None) if s.h.is_zero() && s.l.is_zero() => {
-                format!("With H = l = 0 rounding does not limit the accuracy of ε p. {seen}")
-            }
-            Ok(None) => {
-                format!("Rounding dominates ε p before the penalty is stiff, so no ε is best. {seen}")
-            }
-            Err(_) => format!("The ε with the best bound of ε p is out of the range of this scalar. {seen}"),
-        });
-        notes.push(
-            "m g − c u has no optimum: its error decreases to the level of rounding and stays there."
-                .to_string(),
+            format_short(&reaction),
+            format_short(&exact(&system.c)),
         );
-        let n = Exact::one() / &eta;
-        let floor = |eps: &T| rounding::floor_scale(&s, &exact(eps), &n);
-        // If the floor is at least the penetration by penalty, there is nothing to augment.
-        let augments = |eps: &&T| floor(eps) < penalty::penetration(&s, &exact(*eps));
-        if let (Some(first), Some(last)) = (penalties.iter().find(augments), penalties.iter().rfind(augments))
-        {
-            let stops = |eps: &T| format!("{} m with ε = {} N/m", few(&floor(eps)), few(&exact(eps)));
-            let mut where_to = stops(first);
-            if first != last {
-                where_to += &format!(", {}", stops(last));
-            }
-            notes.push(format!(
-                "An augmentation stops at a penetration of about η (|H| + |Δ| + R/ε): {where_to}."
-            ));
+        if self.scalar == NumberSystem::Exact {
+            return vec![stiffness, "Rationals do not round: there is no other error.".to_string()];
         }
-        notes
+        let eta = self.scalar.unit_roundoff();
+        let best = best_penalty_note(system, &eta);
+        let least =
+            format!("The smallest error here is {} at ε = {} N/m.", format_short(&least), shortened(at));
+        let force = "m g − c u has no optimum: its error decreases to the level of rounding and stays there.";
+        let notes = [stiffness, format!("{best} {least}"), force.to_string()];
+        notes.into_iter().chain(augmentation_note(system, penalties, &eta)).collect()
     }
+}
+
+impl Format {
+    /// Formats a quantity, in a table within a width.
+    fn quantity<T: ExactText>(self, x: &T, width: usize) -> String {
+        if self == Format::Table { exact(x).decimal_within(DIGITS, width) } else { x.text() }
+    }
+
+    /// Formats an error, in a table within a width.
+    fn error(self, x: Option<&Exact>, width: usize) -> Option<String> {
+        x.map(|x| match self {
+            Format::Table => x.decimal_within(SHORT_DIGITS, width),
+            Format::Json => x.text(),
+            Format::Csv => x.decimal(ERROR_DIGITS, Round::Nearest),
+        })
+    }
+}
+
+fn format_short(x: &Exact) -> String {
+    x.decimal(SHORT_DIGITS, Round::Nearest)
+}
+
+/// Describes the penalty with the best bound of ε p.
+fn best_penalty_note<T: Scalar + ExactText>(system: &SpringMass<T>, eta: &Exact) -> String {
+    match best_penalty(system, eta) {
+        Ok(Some(best)) => {
+            let bound = penalty_force_bound(system, &best, eta).ok().flatten();
+            let (best, bound) =
+                (format_short(&exact(&best)), bound.as_ref().map_or(String::new(), format_short));
+            format!(
+                "ε p amplifies the rounding error of p: the best bound is that of ε = {best} N/m, where ε p \
+                 is within {bound} of R."
+            )
+        }
+        Ok(None) if system.h.is_zero() && system.l.is_zero() => {
+            "With H = l = 0 rounding does not limit the accuracy of ε p.".to_string()
+        }
+        Ok(None) => "Rounding dominates ε p before the penalty is stiff, so no ε is best.".to_string(),
+        Err(_) => "The ε with the best bound of ε p is out of the range of this scalar.".to_string(),
+    }
+}
+
+/// Describes the floors with the smallest and the largest penalty for which there is something to augment:
+/// the penetration by penalty is greater than the floor.
+fn augmentation_note<T: ExactText>(system: &SpringMass<T>, penalties: &[T], eta: &Exact) -> Option<String> {
+    let (s, n) = (system.map(exact), Exact::one() / eta);
+    let floors = penalties.iter().map(exact).map(|eps| (rounding::floor_scale(&s, &eps, &n), eps));
+    let floors: Vec<_> = floors.filter(|(floor, eps)| *floor < penalty::penetration(&s, eps)).collect();
+    let (first, last) = (floors.first()?, floors.last()?);
+    let [mut stops, stop] = [first, last]
+        .map(|(floor, eps)| format!("{} m with ε = {} N/m", format_short(floor), format_short(eps)));
+    if first != last {
+        stops += &format!(", {stop}");
+    }
+    Some(format!("An augmentation stops at a penetration of about η (|H| + |Δ| + R/ε): {stops}."))
 }
 
 fn log10(x: &Exact) -> Option<f64> {

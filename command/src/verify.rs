@@ -1,7 +1,7 @@
 //! `contact verify`: every claim, proved and checked in every number system.
 
 use crate::args;
-use crate::output::{self, Exit, Failure, formats};
+use crate::output::{self, Exit, Failure, counted, formats};
 use spring_mass_contact::claims::entry;
 use spring_mass_contact::number::NumberSystem;
 use spring_mass_contact::verify::{self, Report, Row, Status, claim_names};
@@ -83,49 +83,26 @@ fn print(out: &mut dyn Write, report: &Report, options: &verify::Options, format
 }
 
 /// Column of the report: a number system, or the prover.
-type Way = Option<NumberSystem>;
+type Column = Option<NumberSystem>;
 
-fn name(way: Way) -> String {
-    way.map_or("proved".to_string(), |scalar| scalar.to_string())
+fn column_name(column: Column) -> String {
+    column.map_or("proved".to_string(), |scalar| scalar.to_string())
 }
 
 fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io::Result<()> {
-    let ways: Vec<Way> = [None].into_iter().chain(options.scalars.iter().copied().map(Some)).collect();
-    for ways in side_by_side(report, &ways) {
-        counts(out, report, ways)?;
+    let scalars = options.scalars.iter().copied().map(Some);
+    let columns: Vec<Column> = [None].into_iter().chain(scalars).collect();
+    for columns in side_by_side(report, &columns) {
+        counts(out, report, columns)?;
         writeln!(out)?;
     }
-    let of = |status| report.rows.iter().filter(move |row| row.status == status);
-    let failed: Vec<&Row> = of(Status::Failed).collect();
-    for alike in failed.chunk_by(|a, b| fail_alike(a, b)) {
+    for alike in rows_with(report, Status::Failed).chunk_by(|a, b| failure_key(a) == failure_key(b)) {
         failure(out, alike)?;
         writeln!(out)?;
     }
-    undecided(out, &of(Status::Undecided).collect::<Vec<_>>())?;
-    let summary = report.summary();
-    let in_numbers = || report.rows.iter().filter(|row| row.scalar.is_some());
-    let tried = in_numbers().count();
-    let all = counted((summary.claims - tried) as u64, "claim");
-    writeln!(out, "{} of {all} proved for all values.", summary.proved)?;
-    writeln!(
-        out,
-        "{} of {} hold: {} decided, {} undecidable.",
-        summary.held,
-        counted(tried as u64, "claim"),
-        counted(in_numbers().map(|row| row.decided).sum(), "trial"),
-        in_numbers().map(|row| row.undecided).sum::<u64>()
-    )?;
-    writeln!(out, "{} from seed {}.", counted(options.cases, "case"), options.seed)?;
-    let worst = of(Status::Held).filter_map(|row| row.worst.as_ref().map(|(ratio, _)| (*ratio, row)));
-    if let Some((ratio, row)) = worst.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(ratio, _)| *ratio > 0.0) {
-        let Row { equation, claim, scalar, .. } = row;
-        let share = percent(ratio);
-        writeln!(
-            out,
-            "Rounding errors: at most {share} of the bound ({equation} {claim}, {}).",
-            name(*scalar)
-        )?;
-    }
+    undecided(out, &rows_with(report, Status::Undecided))?;
+    totals(out, report, options)?;
+    worst(out, report)?;
     if !report.shared.is_empty() {
         let shared = report.shared.join(", ");
         output::wrapped(out, "", 2, &format!("Every claim that is not proved uses {shared}."))?;
@@ -133,47 +110,73 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
     Ok(())
 }
 
+fn rows_with(report: &Report, status: Status) -> Vec<&Row> {
+    report.rows.iter().filter(|row| row.status == status).collect()
+}
+
+fn totals(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io::Result<()> {
+    let summary = report.summary();
+    let checked: Vec<_> = report.rows.iter().filter(|row| row.scalar.is_some()).collect();
+    let all = counted((summary.claims - checked.len()) as u64, "claim", "claims");
+    writeln!(out, "{} of {all} proved for all values.", summary.proved)?;
+    writeln!(
+        out,
+        "{} of {} hold: {} decided, {} undecidable.",
+        summary.held,
+        counted(checked.len() as u64, "claim", "claims"),
+        counted(checked.iter().map(|row| row.decided).sum(), "trial", "trials"),
+        checked.iter().map(|row| row.undecided).sum::<u64>()
+    )?;
+    writeln!(out, "{} from seed {}.", counted(options.cases, "case", "cases"), options.seed)
+}
+
+/// Prints the largest rounding error relative to its bound.
+fn worst(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    let held = rows_with(report, Status::Held).into_iter();
+    let shares = held.filter_map(|row| row.worst.as_ref().map(|(share, _)| (*share, row)));
+    let positive = shares.filter(|(share, _)| *share > 0.0);
+    positive.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(Ok(()), |(share, row)| {
+        let (Row { equation, claim, .. }, share) = (row, percent(share));
+        let scalar = column_name(row.scalar);
+        writeln!(out, "Rounding errors: at most {share} of the bound ({equation} {claim}, {scalar}).")
+    })
+}
+
 /// Formats a fraction in per cent with one decimal, rounded up, since it is an upper bound.
 fn percent(share: f64) -> String {
     format!("{} %", (1e3 * share).ceil() / 10.0)
 }
 
-fn counted(count: u64, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
 /// Width for these columns; the number and the longest word of the title need the rest of a line.
-const ROOM: usize = 45;
+const MAX_COLUMNS_WIDTH: usize = 45;
 
 /// Blanks around a column.
-const BLANKS: usize = 2;
+const COLUMN_GAP: usize = 2;
 
 /// Groups columns that fit beside each other.
-fn side_by_side<'a>(report: &Report, ways: &'a [Way]) -> Vec<&'a [Way]> {
-    let width = |way: Way| {
-        let cells = report.by_equation().map(|rows| cell(rows, way).len());
-        cells.chain([name(way).len()]).max().unwrap_or(0) + BLANKS
-    };
+fn side_by_side<'a>(report: &Report, columns: &'a [Column]) -> Vec<&'a [Column]> {
     let (mut groups, mut start, mut used) = (Vec::new(), 0, 0);
-    for (i, way) in ways.iter().enumerate() {
-        let width = width(*way);
-        if used + width > ROOM {
-            groups.push(&ways[start..i]);
+    for (i, column) in columns.iter().enumerate() {
+        let cells = report.by_equation().map(|rows| cell(rows, *column).len());
+        let width = cells.chain([column_name(*column).len()]).max().unwrap_or(0) + COLUMN_GAP;
+        if used + width > MAX_COLUMNS_WIDTH {
+            groups.push(&columns[start..i]);
             (start, used) = (i, 0);
         }
         used += width;
     }
-    groups.push(&ways[start..]);
+    groups.push(&columns[start..]);
     groups
 }
 
-/// Returns how many claims of an equation are proved, or hold in a number system.
-fn cell(rows: &[Row], way: Way) -> String {
-    let rows = || rows.iter().filter(|row| row.scalar == way);
-    let count = |status| rows().filter(|row| row.status == status).count();
-    match (count(Status::Failed), count(Status::Undecided), rows().count()) {
+/// Returns the number of claims of an equation that are proved, or that hold in a number system.
+fn cell(rows: &[Row], column: Column) -> String {
+    let statuses = rows.iter().filter(|row| row.scalar == column).map(|row| row.status);
+    let [failed, undecided] = [Status::Failed, Status::Undecided]
+        .map(|status| statuses.clone().filter(|other| *other == status).count());
+    match (failed, undecided, statuses.count()) {
         (_, _, 0) => "-".to_string(),
-        (0, 0, all) if way.is_none() => all.to_string(),
+        (0, 0, all) if column.is_none() => all.to_string(),
         (0, 0, all) => format!("{all} held"),
         (0, undecided, _) => format!("{undecided} undecided"),
         (failed, ..) => format!("{failed} FAILED"),
@@ -181,20 +184,21 @@ fn cell(rows: &[Row], way: Way) -> String {
 }
 
 /// Prints a line for each equation.
-fn counts(out: &mut dyn Write, report: &Report, ways: &[Way]) -> io::Result<()> {
-    let names = ["number", "title"].map(String::from).into_iter().chain(ways.iter().copied().map(name));
+fn counts(out: &mut dyn Write, report: &Report, columns: &[Column]) -> io::Result<()> {
+    let names =
+        ["number", "title"].map(String::from).into_iter().chain(columns.iter().copied().map(column_name));
     let rows = report.by_equation().map(|rows| {
         let head = entry(rows[0].equation).map(|entry| [entry.label(), entry.title.to_string()]);
-        let cells = ways.iter().map(|way| cell(rows, *way));
+        let cells = columns.iter().map(|column| cell(rows, *column));
         head.unwrap_or_default().into_iter().chain(cells).collect::<Vec<_>>()
     });
     output::table(out, names, rows, 1..2)
 }
 
-/// Returns `true` if the same claim fails for the same reason in two number systems; their rows are adjacent.
-fn fail_alike(a: &Row, b: &Row) -> bool {
-    let key = |row: &Row| (row.equation, row.claim, row.scalar.is_none());
-    key(a) == key(b) && (&a.reason, &a.counterexample) == (&b.reason, &b.counterexample)
+/// Returns the claim and the reason of a failure, which can be the same in number systems; their rows are
+/// adjacent.
+fn failure_key(row: &Row) -> impl PartialEq {
+    (row.equation, row.claim, row.scalar.is_none(), &row.reason, &row.counterexample)
 }
 
 /// Prints the undecided claims, one per line, and a remedy.
@@ -231,7 +235,7 @@ fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
 
 /// Returns the number systems of rows.
 fn names(rows: &[&Row]) -> String {
-    rows.iter().map(|row| name(row.scalar)).collect::<Vec<_>>().join(", ")
+    rows.iter().map(|row| column_name(row.scalar)).collect::<Vec<_>>().join(", ")
 }
 
 fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {

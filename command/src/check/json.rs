@@ -2,11 +2,12 @@
 
 use super::Options;
 use super::program::request;
+use super::report::rounding;
 use crate::args::format_exact;
 use crate::output::record;
 use serde::Serialize;
 use serde_json::value::RawValue;
-use spring_mass_contact::check::{CaseResult, Condition, Reply, Report, Row, Threshold, Value, Verdict};
+use spring_mass_contact::check::{CaseResult, Condition, Reply, Report, Row, Threshold, Verdict};
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
 
@@ -15,7 +16,6 @@ const DIGITS: usize = 6;
 
 /// Returns the report with the program and the options.
 pub fn report(program: &str, options: &Options, report: &Report) -> impl Serialize {
-    let id = |i: usize| &report.results[i].problem.id;
     record! {
         program: program.to_string(),
         seed: options.drawn.seed,
@@ -25,12 +25,16 @@ pub fn report(program: &str, options: &Options, report: &Report) -> impl Seriali
         summary: report.summary(),
         families: report.families().iter().map(family).collect::<Vec<_>>(),
         repeated: report.repeated,
-        changed: report.changed.iter().map(|again| id(again.of)).collect::<Vec<_>>(),
-        carried_over: report.carried_over.iter().map(|both| both.map(id)).collect::<Vec<_>>(),
+        changed: report.changed.iter().map(|change| id(report, change.of)).collect::<Vec<_>>(),
+        carried_over: report.carried_over.iter().map(|pair| pair.map(|i| id(report, i))).collect::<Vec<_>>(),
         conditions: report.conditions.iter().map(condition).collect::<Vec<_>>(),
         absolute_bounds: report.absolute_bounds.each_ref().map(error),
         diagnosis: &report.diagnosis,
     }
+}
+
+fn id(report: &Report, i: usize) -> &str {
+    &report.results[i].problem.id
 }
 
 fn family<'a>(row: &Row<'a>) -> impl Serialize + use<'a> {
@@ -52,8 +56,7 @@ fn condition(condition: &Condition) -> impl Serialize + use<> {
 }
 
 fn threshold(threshold: &Threshold) -> impl Serialize + use<> {
-    let [wrong, right] =
-        if threshold.is_below() { [Round::Up, Round::Down] } else { [Round::Down, Round::Up] };
+    let [wrong, right] = rounding(threshold);
     record! {
         quantity: threshold.quantity,
         wrong: threshold.wrong.decimal(DIGITS, wrong),
@@ -65,29 +68,28 @@ fn error(x: &Option<Exact>) -> Option<String> {
     x.as_ref().map(|x| x.decimal(DIGITS, Round::Up))
 }
 
-fn counterexample(checked: &CaseResult) -> impl Serialize {
-    let judgement = &checked.assessment;
-    let exact = &judgement.exact;
-    let text = |value: &Value| value.as_ref().map(format_exact);
-    let answer = match &checked.reply {
+fn counterexample(result: &CaseResult) -> impl Serialize {
+    let CaseResult { problem, reply, assessment, .. } = result;
+    let exact = &assessment.exact;
+    let answer = match reply {
         Reply::Answered(answer) => Some(record! {
-            deflection: text(&answer.deflection),
-            contact_force: text(&answer.contact_force),
+            deflection: answer.deflection.as_ref().map(format_exact),
+            contact_force: answer.contact_force.as_ref().map(format_exact),
             status: &answer.status,
         }),
         _ => None,
     };
-    let request = request(&checked.problem).trim_end().to_string();
+    let request = request(problem).trim_end().to_string();
     record! {
         request: RawValue::from_string(request).expect("a request is JSON"),
         answer: answer,
-        finding: &judgement.finding,
+        finding: &assessment.finding,
         exact: record! {
             state: exact.state,
             deflection: &exact.deflection,
             penetration: &exact.penetration,
             contact_force: &exact.contact_force,
         },
-        kkt: &judgement.kkt,
+        kkt: &assessment.kkt,
     }
 }

@@ -34,7 +34,7 @@ const EXIT_POLL_INTERVAL: Duration = Duration::from_millis(5);
 const EXECUTABLE: &str = "must be an executable program; a script begins with #!";
 
 /// Number of bytes kept of stderr, the last ones.
-const TAIL: usize = 1 << 12;
+const TAIL_BYTES: usize = 1 << 12;
 
 /// Number of bytes kept of an unanswered line, for a message.
 const MAX_ECHO_BYTES: usize = 400;
@@ -58,7 +58,6 @@ impl Program {
     /// Passes a problem to the program. Returns an error only if the program cannot be started.
     pub fn ask(&mut self, problem: &Problem) -> Result<Reply, Failure> {
         let start = Instant::now();
-        let left = || self.timeout.saturating_sub(start.elapsed());
         let mut running = match self.running.take() {
             Some(running) => running,
             None => match Running::start(&self.words) {
@@ -71,7 +70,7 @@ impl Program {
             },
         };
         self.started = true;
-        Ok(match running.ask(problem, left) {
+        Ok(match running.ask(problem, || self.timeout.saturating_sub(start.elapsed())) {
             Ok(reply) => {
                 self.running = Some(running);
                 reply
@@ -140,7 +139,7 @@ impl Running {
         command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut group = Group::start(&mut command)?;
         let child = group.child();
-        let pipe = "a pipe was asked for";
+        let pipe = "a piped stream";
         Ok(Running {
             requests: writer(child.stdin.take().expect(pipe))?,
             lines: Lines::of(child.stdout.take().expect(pipe))?,
@@ -184,12 +183,7 @@ impl Running {
                 Err(RecvTimeoutError::Timeout) => {}
             }
             if left().is_zero() {
-                let shown = |line: &[u8]| words(&String::from_utf8_lossy(line));
-                return Err(SessionError::TimedOut(match (&*self.lines.unfinished(), &*last) {
-                    ([], []) => "nothing on stdout; it may not flush its output".to_string(),
-                    ([], line) => format!("last output, not a JSON object: {}", shown(line)),
-                    (part, _) => format!("last output, without a line break: {}", shown(part)),
-                }));
+                return Err(SessionError::TimedOut(last_output(&self.lines.unfinished(), &last)));
             }
         }
     }
@@ -197,16 +191,15 @@ impl Running {
     /// Returns its exit status and its last line on stderr.
     fn end(mut self, grace: Duration) -> String {
         let ended = self.ends(grace);
-        let status = self.group.end();
-        let how = match status {
+        let status = match self.group.end() {
             Ok(status) if ended => {
                 status.code().map_or(status.to_string(), |code| format!("exit status {code}"))
             }
             Ok(_) | Err(_) => "closed its stdout".to_string(),
         };
         match self.stderr.last_line() {
-            Some(line) => format!("{how}; on stderr: {line}"),
-            None => how,
+            Some(line) => format!("{status}; on stderr: {line}"),
+            None => status,
         }
     }
 
@@ -233,6 +226,16 @@ impl Running {
             }
         }
     }
+}
+
+/// Describes the output of a program that does not answer.
+fn last_output(unfinished: &[u8], line: &[u8]) -> String {
+    let (kind, line) = match (unfinished, line) {
+        ([], []) => return "nothing on stdout; it may not flush its output".to_string(),
+        ([], line) => ("not a JSON object", line),
+        (part, _) => ("without a line break", part),
+    };
+    format!("last output, {kind}: {}", words(&String::from_utf8_lossy(line)))
 }
 
 /// Runs a function on a thread until its pipe is closed.
@@ -286,7 +289,7 @@ impl Lines {
             let mut stdout = BufReader::with_capacity(BUFFER, stdout);
             loop {
                 let mut block = Vec::new();
-                let read = read_lines(&mut stdout, usize::MAX, reply::LONGEST, &mut block);
+                let read = read_lines(&mut stdout, usize::MAX, reply::MAX_LINE_BYTES, &mut block);
                 let ended = read.is_err() || block.is_empty();
                 if to.send(block).is_err() || ended {
                     return;
@@ -327,13 +330,13 @@ impl Tail {
         let (reading, ended) = mpsc::channel();
         thread(move || {
             let _reading = reading;
-            let mut some = [0; TAIL];
+            let mut some = [0; TAIL_BYTES];
             while let Ok(count @ 1..) = stderr.read(&mut some)
                 && let Some(tail) = tail.upgrade()
             {
                 let mut tail = tail.lock().unwrap_or_else(PoisonError::into_inner);
                 tail.extend_from_slice(&some[..count]);
-                let surplus = tail.len().saturating_sub(TAIL);
+                let surplus = tail.len().saturating_sub(TAIL_BYTES);
                 tail.drain(..surplus);
             }
         })?;

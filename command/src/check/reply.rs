@@ -6,48 +6,49 @@ use crate::output::{shortened, shortened_to};
 use serde_json::value::RawValue;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::check::{Answer, Reply, UsedParameters, Value};
+use spring_mass_contact::number::ParseError;
 use std::borrow::Cow;
 use std::fmt::Display;
 
 /// Largest number of bytes of a line.
-pub const LONGEST: usize = 1 << 24;
+pub const MAX_LINE_BYTES: usize = 1 << 24;
 
 /// Largest number of digits of a number, including those of its power of ten: more than any solver prints,
 /// and few enough for fast arithmetic in rationals.
-const LONGEST_NUMBER: usize = 1 << 12;
+const MAX_NUMBER_DIGITS: usize = 1 << 12;
 
 /// Largest number of steps of an answer.
-const MOST_STEPS: usize = 10_000;
+const MAX_STEPS: usize = 10_000;
 
 /// Largest number of digits of all numbers of an answer: some megabytes as rationals, and well below a
 /// second.
-const LONGEST_ANSWER: usize = 1 << 22;
+const MAX_ANSWER_DIGITS: usize = 1 << 22;
 
 /// Largest number of characters of a text that is displayed.
-const WORDS: usize = 200;
+const MAX_SHOWN_CHARS: usize = 200;
 
 /// Returns a text for display: one line of limited length.
 pub fn words(text: &str) -> String {
     let line = text.split_whitespace().flat_map(|word| [" ", word]).flat_map(str::chars).skip(1);
     // One more than displayed marks the text as shortened.
-    shortened_to(&line.take(WORDS + 1).collect::<String>(), WORDS)
+    shortened_to(&line.take(MAX_SHOWN_CHARS + 1).collect::<String>(), MAX_SHOWN_CHARS)
 }
 
 /// Returns the reply to the problem with this id, or the reason why the line is none; `None` if it is not an
 /// object.
 pub fn read(line: &[u8], id: &str) -> Option<Result<Reply, String>> {
-    if line.len() > LONGEST {
-        return Some(Err(format!("a line must have no more than {LONGEST} bytes")));
+    if line.len() > MAX_LINE_BYTES {
+        return Some(Err(format!("a line must have no more than {MAX_LINE_BYTES} bytes")));
     }
-    object(line, |object| match own_id(object) {
-        Ok(Some(own)) if own == id => Ok(answer(object).unwrap_or_else(Reply::InvalidResponse)),
-        own => Err(format!("{} instead of an answer to '{}'", answer_to(own), shortened(id))),
+    object(line, |object| match object_id(object) {
+        Ok(Some(found)) if found == id => Ok(answer(object).unwrap_or_else(Reply::InvalidResponse)),
+        found => Err(format!("{} instead of an answer to '{}'", answer_to(found), shortened(id))),
     })
 }
 
 /// Describes a line that arrived before its request; `None` if it is not an object.
 pub fn early(line: &[u8], id: &str) -> Option<String> {
-    object(line, |object| format!("{} before the request '{}'", answer_to(own_id(object)), shortened(id)))
+    object(line, |object| format!("{} before the request '{}'", answer_to(object_id(object)), shortened(id)))
 }
 
 fn answer_to(id: Result<Option<Cow<str>>, String>) -> String {
@@ -59,7 +60,7 @@ fn answer_to(id: Result<Option<Cow<str>>, String>) -> String {
 }
 
 /// Parses the object in a line.
-fn object<T>(line: &[u8], look: impl FnOnce(&Object) -> T) -> Option<T> {
+fn object<T>(line: &[u8], read: impl FnOnce(&Object) -> T) -> Option<T> {
     // Invalid UTF-8 can only stand within a string, and is not a reason to wait for another line.
     let text = String::from_utf8_lossy(line);
     let text = text.trim_start_matches('\u{feff}').trim();
@@ -67,27 +68,30 @@ fn object<T>(line: &[u8], look: impl FnOnce(&Object) -> T) -> Option<T> {
         return None;
     }
     if let Ok(object) = serde_json::from_str(text) {
-        return Some(look(&object));
+        return Some(read(&object));
     }
-    serde_json::from_str(&quoted(text)).ok().as_ref().map(look)
+    serde_json::from_str(&quoted(text)).ok().as_ref().map(read)
 }
 
 /// Quotes hexadecimal numbers and the words for numbers that are not finite, which JSON does not have but
 /// solvers print.
 fn quoted(mut text: &str) -> String {
-    let ends = |c: char| c.is_whitespace() || "{}[],:\"".contains(c);
     let mut quoted = String::with_capacity(text.len() + 64);
     while let Some(first) = text.chars().next() {
         let (word, rest) = text.split_at(match first {
             '"' => string(text),
-            c if ends(c) => c.len_utf8(),
-            _ => text.find(ends).unwrap_or(text.len()),
+            c if is_delimiter(c) => c.len_utf8(),
+            _ => text.find(is_delimiter).unwrap_or(text.len()),
         });
         let quote = if is_not_a_number(word) || is_hexadecimal(word) { "\"" } else { "" };
         quoted.extend([quote, word, quote]);
         text = rest;
     }
     quoted
+}
+
+fn is_delimiter(c: char) -> bool {
+    c.is_whitespace() || "{}[],:\"".contains(c)
 }
 
 /// Returns the number of bytes of the string at the beginning of a text.
@@ -109,74 +113,79 @@ fn is_hexadecimal(word: &str) -> bool {
 /// `-Infinity`.
 fn is_not_a_number(word: &str) -> bool {
     let word = word.strip_prefix(['-', '+']).unwrap_or(word);
-    let is = |name: &str| word.eq_ignore_ascii_case(name);
-    let has_payload = || word.ends_with(')') && word.get(..4).is_some_and(|s| s.eq_ignore_ascii_case("nan("));
-    is("nan") || is("inf") || is("infinity") || has_payload()
+    ["nan", "inf", "infinity"].iter().any(|name| word.eq_ignore_ascii_case(name))
+        || word.ends_with(')') && word.get(..4).is_some_and(|start| start.eq_ignore_ascii_case("nan("))
 }
 
-fn own_id<'a>(object: &Object<'a>) -> Result<Option<Cow<'a, str>>, String> {
+fn object_id<'a>(object: &Object<'a>) -> Result<Option<Cow<'a, str>>, String> {
     Ok(once(object, "", "id")?.map(json::text))
 }
 
 /// Returns the value of a key, or an error if there are two.
 fn once<'a>(object: &Object<'a>, within: &str, key: &str) -> Result<Option<&'a RawValue>, String> {
-    match object.0.iter().filter(|(own, _)| own == key).count() {
+    match object.0.iter().filter(|(other, _)| other == key).count() {
         0 | 1 => Ok(object.get(key)),
         _ => Err(format!("the key '{within}{key}' used multiple times")),
     }
 }
 
 /// Returns the value of an optional key; null counts as missing.
-fn said<'a>(object: &Object<'a>, within: &str, key: &str) -> Result<Option<&'a RawValue>, String> {
+fn non_null<'a>(object: &Object<'a>, within: &str, key: &str) -> Result<Option<&'a RawValue>, String> {
     Ok(once(object, within, key)?.filter(|value| value.get() != "null"))
 }
 
 fn answer(object: &Object) -> Result<Reply, String> {
-    // Some programs report explicitly that there was no error.
-    let is_none = |error: &RawValue| ["false", "0", "\"\""].contains(&error.get());
-    let answers = object.get("deflection").is_some() && object.get("contact_force").is_some();
-    if let Some(error) = said(object, "", "error")?.filter(|error| !(answers && is_none(error))) {
+    if let Some(error) = error(object)? {
         return Ok(Reply::Refused(words(&json::text(error))));
     }
-    let mut digits = LONGEST_ANSWER;
-    let [deflection, contact_force] = needed(object, "", &mut digits)?;
+    let mut digits = MAX_ANSWER_DIGITS;
+    let [deflection, contact_force] = required_pair(object, "", &mut digits)?;
     let penetration = optional(object, "", "penetration", &mut digits)?;
-    let status = said(object, "", "status")?.map(|status| words(&json::text(status)));
-    let used = match said(object, "", "used")? {
-        None => UsedParameters::default(),
-        Some(used) => {
-            let object: Object = serde_json::from_str(used.get())
-                .map_err(|_| refused(&json::text(used), "used", "must be an object"))?;
-            let mut value = |key| optional(&object, "used.", key, &mut digits);
-            UsedParameters { system: SpringMass::KEYS.try_map(|key| value(key))?, penalty: value("penalty")? }
-        }
-    };
-    let steps = match said(object, "", "steps")? {
-        None => Vec::new(),
-        Some(steps) => {
-            let objects: Vec<Object> = serde_json::from_str(steps.get())
-                .map_err(|_| refused(&json::text(steps), "steps", "must be an array of objects"))?;
-            if objects.len() > MOST_STEPS {
-                return Err(format!("there must be no more than {MOST_STEPS} steps"));
-            }
-            let step = |(k, object)| needed(object, &format!("steps[{k}]."), &mut digits);
-            objects.iter().enumerate().map(step).collect::<Result<_, _>>()?
-        }
-    };
+    let status = non_null(object, "", "status")?.map(|status| words(&json::text(status)));
+    let used = used(object, &mut digits)?;
+    let steps = steps(object, &mut digits)?;
     Ok(Reply::Answered(Box::new(Answer { deflection, contact_force, penetration, status, used, steps })))
 }
 
+/// Returns the error, unless there are answers and it is an explicit report of none.
+fn error<'a>(object: &Object<'a>) -> Result<Option<&'a RawValue>, String> {
+    let answers = object.get("deflection").is_some() && object.get("contact_force").is_some();
+    let error = non_null(object, "", "error")?;
+    Ok(error.filter(|error| !(answers && ["false", "0", "\"\""].contains(&error.get()))))
+}
+
+fn used(object: &Object, digits: &mut usize) -> Result<UsedParameters, String> {
+    let Some(used) = non_null(object, "", "used")? else { return Ok(UsedParameters::default()) };
+    let object: Object = serde_json::from_str(used.get())
+        .map_err(|_| refused(&json::text(used), "used", "must be an object"))?;
+    let system = SpringMass::KEYS.try_map(|key| optional(&object, "used.", key, digits))?;
+    Ok(UsedParameters { system, penalty: optional(&object, "used.", "penalty", digits)? })
+}
+
+fn steps(object: &Object, digits: &mut usize) -> Result<Vec<[Value; 2]>, String> {
+    let Some(steps) = non_null(object, "", "steps")? else { return Ok(Vec::new()) };
+    let steps: Vec<Object> = serde_json::from_str(steps.get())
+        .map_err(|_| refused(&json::text(steps), "steps", "must be an array of objects"))?;
+    if steps.len() > MAX_STEPS {
+        return Err(format!("there must be no more than {MAX_STEPS} steps"));
+    }
+    let steps = steps.iter().enumerate();
+    steps.map(|(k, step)| required_pair(step, &format!("steps[{k}]."), digits)).collect()
+}
+
 /// Returns the required numbers of an answer or a step.
-fn needed(object: &Object, within: &str, digits: &mut usize) -> Result<[Value; 2], String> {
-    let mut value = |key| match once(object, within, key)? {
-        Some(value) => number(value, within, key, digits),
-        None => Err(format!("the key '{within}{key}' is missing")),
-    };
-    Ok([value("deflection")?, value("contact_force")?])
+fn required_pair(object: &Object, within: &str, digits: &mut usize) -> Result<[Value; 2], String> {
+    let deflection = required(object, within, "deflection", digits)?;
+    Ok([deflection, required(object, within, "contact_force", digits)?])
+}
+
+fn required(object: &Object, within: &str, key: &str, digits: &mut usize) -> Result<Value, String> {
+    let value = once(object, within, key)?.ok_or_else(|| format!("the key '{within}{key}' is missing"))?;
+    number(value, within, key, digits)
 }
 
 fn optional(object: &Object, within: &str, key: &str, digits: &mut usize) -> Result<Option<Value>, String> {
-    said(object, within, key)?.map(|value| number(value, within, key, digits)).transpose()
+    non_null(object, within, key)?.map(|value| number(value, within, key, digits)).transpose()
 }
 
 /// Parses a number, whose digits are subtracted from those allowed. null counts as NaN.
@@ -186,15 +195,16 @@ fn number(value: &RawValue, within: &str, key: &str, digits: &mut usize) -> Resu
     if value.get() == "null" || is_not_a_number(text) {
         return Ok(None);
     }
-    let refused = |reason: &dyn Display| refused(text, format!("{within}{key}"), reason);
     let size = size(text);
-    if size > LONGEST_NUMBER {
-        return Err(refused(&format!("must have no more than {LONGEST_NUMBER} digits")));
-    }
-    *digits = digits.checked_sub(size).ok_or_else(|| {
-        refused(&format!("the numbers of an answer must have no more than {LONGEST_ANSWER} digits together"))
-    })?;
-    text.parse().map(Some).map_err(|error| refused(&error))
+    let value = if size > MAX_NUMBER_DIGITS {
+        Err(format!("must have no more than {MAX_NUMBER_DIGITS} digits"))
+    } else if size > *digits {
+        Err(format!("the numbers of an answer must have no more than {MAX_ANSWER_DIGITS} digits together"))
+    } else {
+        *digits -= size;
+        text.parse().map(Some).map_err(|error: ParseError| error.to_string())
+    };
+    value.map_err(|reason| refused(text, format!("{within}{key}"), reason))
 }
 
 /// Returns the approximate number of digits of a number written out.

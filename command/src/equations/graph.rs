@@ -37,11 +37,11 @@ mod tests {
 
     #[test]
     fn a_graph_distinguishes_proved_and_unproved_claims() {
-        let mut own = entry("1.13").unwrap().clone();
+        let mut changed = entry("1.13").unwrap().clone();
         let claim = |name, right: i32| equal(name, Tree::from(1) + Tree::from(1), right);
         let mut with = |claims: &[(&'static str, i32)]| {
-            own.claims = claims.iter().map(|(name, right)| claim(name, *right)).collect();
-            graph(&[&own])
+            changed.claims = claims.iter().map(|(name, right)| claim(name, *right)).collect();
+            graph(&[&changed])
         };
         assert!(with(&[("right", 2)]).contains("\\n1 proved\", color = darkgreen"));
         assert!(with(&[("right", 2), ("wrong", 3), ("worse", 4)]).contains("\\n2 NOT PROVED\", color = red"));
@@ -51,9 +51,9 @@ mod tests {
 
     #[test]
     fn edges_connect_displayed_nodes_only() {
-        let own = entry("1.6").unwrap();
-        assert!(own.follows_from.contains(&"1.5"));
-        assert!(!graph(&[own]).contains("->"));
-        assert_eq!(graph(&[own, entry("1.5").unwrap()]).matches("->").count(), 1);
+        let derived = entry("1.6").unwrap();
+        assert!(derived.follows_from.contains(&"1.5"));
+        assert!(!graph(&[derived]).contains("->"));
+        assert_eq!(graph(&[derived, entry("1.5").unwrap()]).matches("->").count(), 1);
     }
 }

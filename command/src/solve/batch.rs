@@ -9,11 +9,10 @@ use crate::output::{self, Exit, Failure, shortened};
 use clap::ValueEnum;
 use rayon::prelude::*;
 use serde_json::value::{RawValue, Value};
-use std::fmt::Display;
 use std::io::{self, BufReader};
 
 /// Largest number of bytes of a line; longer ones are discarded.
-const LONGEST: usize = 1 << 20;
+const MAX_LINE_BYTES: usize = 1 << 20;
 
 /// Number of lines per core that are solved at once: large enough to make distributing them cheap, small
 /// enough to limit memory.
@@ -29,7 +28,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         let (mut exit, mut lines) = (Exit::Success, Vec::new());
         loop {
             lines.clear();
-            json::read_lines(&mut stdin, most, LONGEST, &mut lines)
+            json::read_lines(&mut stdin, most, MAX_LINE_BYTES, &mut lines)
                 .map_err(|error| format!("cannot read stdin: {error}"))?;
             if lines.is_empty() {
                 return Ok(exit);
@@ -37,9 +36,9 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
             let lines = lines.split(|byte| *byte == b'\n').filter(|line| !line.trim_ascii().is_empty());
             let lines: Vec<_> = lines.collect();
             let answers: Vec<_> = lines.par_iter().map(|line| answer(line, options)).collect();
-            for (text, own) in answers {
+            for (text, status) in answers {
                 out.write_all(&text)?;
-                exit = exit.max(own);
+                exit = exit.max(status);
             }
             out.flush()?;
         }
@@ -67,24 +66,26 @@ fn answer(line: &[u8], defaults: &Options) -> (Vec<u8>, Exit) {
 
 /// Returns the object in a line.
 fn read(line: &[u8]) -> Result<Object<'_>, Failure> {
-    if line.len() > LONGEST {
-        return Err(format!("a line must have no more than {LONGEST} bytes").into());
+    if line.len() > MAX_LINE_BYTES {
+        return Err(format!("a line must have no more than {MAX_LINE_BYTES} bytes").into());
     }
-    let refused = |reason: &dyn Display| {
+    let object = match str::from_utf8(line) {
+        Err(_) => Err("must be UTF-8 text".to_string()),
+        Ok(text) => serde_json::from_str(text.trim_start_matches('\u{feff}')).map_err(json_error),
+    };
+    Ok(object.map_err(|reason| {
         let text = String::from_utf8_lossy(line);
         format!("invalid line '{}': {reason}; a line is a JSON object", shortened(text.trim()))
-    };
-    let text = str::from_utf8(line).map_err(|_| refused(&"must be UTF-8 text"))?;
-    let text = text.trim_start_matches('\u{feff}');
-    Ok(serde_json::from_str(text).map_err(|error| {
-        // The line number within the line is omitted.
-        let reason = error.to_string();
-        let place = format!(" at line {} column {}", error.line(), error.column());
-        refused(&match reason.strip_suffix(&place) {
-            Some(reason) => format!("{reason} at column {}", error.column()),
-            None => reason,
-        })
     })?)
+}
+
+/// Formats an error without the number of the line, which is 1.
+fn json_error(error: serde_json::Error) -> String {
+    let reason = error.to_string();
+    match reason.strip_suffix(&format!(" at line {} column {}", error.line(), error.column())) {
+        Some(reason) => format!("{reason} at column {}", error.column()),
+        None => reason,
+    }
 }
 
 /// Sets an option, or returns the values allowed.
@@ -134,7 +135,7 @@ impl Options {
 
     /// Sets an option by its key.
     fn set(&mut self, key: &str, value: &RawValue) -> Result<(), Failure> {
-        let Some((_, set)) = KEYS.iter().find(|(own, _)| *own == key) else {
+        let Some((_, set)) = KEYS.iter().find(|(other, _)| *other == key) else {
             let keys = KEYS.map(|(key, _)| key).join(", ");
             return Err(format!("unexpected key '{}' found; [keys: id, {keys}]", shortened(key)).into());
         };
@@ -155,8 +156,10 @@ impl Options {
 
 impl MethodName {
     fn read(text: &str) -> Result<Self, String> {
-        let names = || Self::value_variants().iter().map(|method| method.name()).collect::<Vec<_>>();
-        Self::from_str(text, false).map_err(|_| format!("[possible values: {}]", names().join(", ")))
+        Self::from_str(text, false).map_err(|_| {
+            let names: Vec<_> = Self::value_variants().iter().map(|method| method.name()).collect();
+            format!("[possible values: {}]", names.join(", "))
+        })
     }
 }
 
@@ -170,8 +173,8 @@ mod tests {
     fn a_line_has_the_keys_of_the_long_options() {
         let command = Options::augment_args(clap::Command::new("solve"));
         let options = command.get_arguments().filter_map(|option| option.get_long());
-        let own = ["format", "trace", "batch"];
-        let options: Vec<_> = options.filter(|option| !own.contains(option)).map(key).collect();
+        let excluded = ["format", "trace", "batch"];
+        let options: Vec<_> = options.filter(|option| !excluded.contains(option)).map(key).collect();
         assert_eq!(options, KEYS.map(|(key, _)| key));
     }
 }

@@ -52,8 +52,8 @@ impl<T: Scalar + ExactText> Serialize for Report<'_, T> {
 impl<T: Scalar + ExactText> Report<'_, T> {
     /// Names and values shared by JSON and CSV; quantities are texts, so that no reader rounds them.
     fn fields(&self) -> [(&'static str, Value); 11] {
-        let maybe = |x: &Option<T>| Value::from(x.as_ref().map(ExactText::text));
         let s = self.solution;
+        let [multiplier, floor] = [&s.multiplier, &s.floor].map(|x| x.as_ref().map(ExactText::text));
         [
             ("method", self.options.method.name().into()),
             ("scalar", self.options.scalar.to_string().into()),
@@ -62,9 +62,9 @@ impl<T: Scalar + ExactText> Report<'_, T> {
             ("deflection", s.deflection.text().into()),
             ("penetration", s.penetration.text().into()),
             ("contact_force", s.contact_force.text().into()),
-            ("multiplier", maybe(&s.multiplier)),
+            ("multiplier", multiplier.into()),
             ("augmentations", s.augmentations.into()),
-            ("floor", maybe(&s.floor)),
+            ("floor", floor.into()),
             ("steps_needed", self.steps_needed.clone().into()),
         ]
     }
@@ -131,12 +131,12 @@ impl<T: Scalar + ExactText> Report<'_, T> {
         // Ten digits, a sign, a point, and three leading zeros or an exponent.
         const WIDE: usize = 16;
         let first = self.solution.augmentations.unwrap_or_default().to_string().len();
-        let aligned = |cells| output::aligned(&[WIDE + 1; 4], cells);
-        let names = ["λ in N", "u in m", "p in m", "m g − c u in N"].map(String::from);
-        writeln!(out, "\n {:<first$} {}", "k", aligned(names))?;
+        let widths = [WIDE + 1; 4];
+        let names = ["λ in N", "u in m", "p in m", "m g − c u in N"];
+        writeln!(out, "\n {:<first$} {}", "k", output::aligned(&widths, names))?;
         for iterate in self.problem.trace(self.solution) {
             let cells = quantities(&iterate).map(|x| exact(x).decimal_within(DIGITS, WIDE));
-            writeln!(out, " {:<first$} {}", iterate.k, aligned(cells))?;
+            writeln!(out, " {:<first$} {}", iterate.k, output::aligned(&widths, cells))?;
         }
         writeln!(out, "\n At most ten digits each; --format csv has all.")
     }
@@ -288,10 +288,10 @@ pub fn rounded_in_words<T: ExactText>(
 }
 
 /// Smallest number of digits compared, regardless of those typed; the residuals in a table have as many.
-const FEWEST: usize = 3;
+const MIN_DIGITS: usize = 3;
 
 /// Largest number of digits written.
-const MOST: usize = 17;
+const MAX_DIGITS: usize = 17;
 
 /// Returns the rounded value, `g = 8`, if it visibly differs from the number typed, when written with as many
 /// digits. It does not if few digits are typed, up to 6 for f32 and 15 for f64.
@@ -303,11 +303,10 @@ fn visibly_rounded<T: ExactText>(symbol: &str, typed: &str, value: &Exact, x: &T
     let digits = mantissa.unwrap_or_default().chars().filter(char::is_ascii_hexdigit);
     let digits = digits.skip_while(|digit| *digit == '0').count();
     // A fraction has no decimal digits.
-    let digits = if typed.contains('/') { FEWEST } else { digits.max(FEWEST) };
+    let digits = if typed.contains('/') { MIN_DIGITS } else { digits.max(MIN_DIGITS) };
     let x = exact(x);
-    let written = |x: &Exact| x.decimal(digits, Round::Nearest);
-    (written(value) != written(&x)).then(|| {
-        let text = x.decimal(digits.min(MOST), Round::Nearest);
+    (value.decimal(digits, Round::Nearest) != x.decimal(digits, Round::Nearest)).then(|| {
+        let text = x.decimal(digits.min(MAX_DIGITS), Round::Nearest);
         let sign = if text.parse() == Ok(x) { '=' } else { '≈' };
         format!("{symbol} {sign} {text}")
     })

@@ -4,7 +4,7 @@
 pub struct Curve {
     /// Name.
     pub name: &'static str,
-    /// Whether the points are joined by lines.
+    /// `true` if lines join the points.
     pub joined: bool,
     /// log₁₀ of both coordinates, from left to right.
     pub points: Vec<(f64, f64)>,
@@ -24,8 +24,11 @@ const DOTS: [[u32; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x
 impl Curve {
     /// Returns the curves of the errors of the two forces, without points.
     pub fn pair() -> [Curve; 2] {
-        let of = |name, joined| Curve { name, joined, points: Vec::new() };
-        [of("m g − c u", false), of("ε p", true)]
+        [("m g − c u", false), ("ε p", true)].map(|(name, joined)| Curve { name, joined, points: Vec::new() })
+    }
+
+    fn legend(&self) -> String {
+        format!("{} {}", if self.joined { "⠒⠒⠒" } else { "⠂⠐⠂" }, self.name)
     }
 }
 
@@ -55,58 +58,69 @@ impl Axis {
         let mut steps = (0..).flat_map(|power| [1, 2, 5].map(|digit| digit * 10_i64.pow(power)));
         let step = steps.find(|step| (to - from) / step < most as i64).expect("steps without end");
         let first = from + (-from).rem_euclid(step);
-        (0..)
-            .map(|i| first + i * step)
-            .take_while(|power| *power <= to)
-            .map(|n| (n, self.dot(n as f64)))
-            .collect()
+        let powers = (first..=to).step_by(step as usize);
+        powers.map(|power| (power, self.dot(power as f64))).collect()
     }
 }
 
-/// Returns the curves with axes and a legend, in at most 80 columns; `None` if there is nothing to draw.
-pub fn log_log(curves: &[Curve]) -> Option<String> {
-    let points = || curves.iter().flat_map(|curve| &curve.points);
-    let x = Axis::around(points().map(|(x, _)| *x), 2 * COLUMNS)?;
-    let y = Axis::around(points().map(|(_, y)| *y), 4 * ROWS)?;
-    let mut canvas = [[0; COLUMNS]; ROWS];
-    let mut set = |across: usize, up: usize| {
+/// The plot area.
+struct Canvas([[u32; COLUMNS]; ROWS]);
+
+impl Canvas {
+    fn dot(&mut self, [across, up]: [usize; 2]) {
         let down = 4 * ROWS - 1 - up;
-        canvas[down / 4][across / 2] |= DOTS[down % 4][across % 2];
-    };
-    for curve in curves {
-        let dots: Vec<_> = curve.points.iter().map(|(a, b)| (x.dot(*a), y.dot(*b))).collect();
-        dots.iter().for_each(|(across, up)| set(*across, *up));
-        for pair in dots.windows(2).filter(|_| curve.joined) {
-            let ((a, b), (c, d)) = (pair[0], pair[1]);
-            let steps = a.abs_diff(c).max(b.abs_diff(d)).max(1);
-            let between =
-                |from: usize, to: usize, i: usize| (from * (steps - i) + to * i + steps / 2) / steps;
-            (0..=steps).for_each(|i| set(between(a, c, i), between(b, d, i)));
+        self.0[down / 4][across / 2] |= DOTS[down % 4][across % 2];
+    }
+
+    fn line(&mut self, [a, b]: [usize; 2], [c, d]: [usize; 2]) {
+        let steps = a.abs_diff(c).max(b.abs_diff(d)).max(1);
+        for i in 0..=steps {
+            self.dot([(a, c), (b, d)].map(|(from, to)| (from * (steps - i) + to * i + steps / 2) / steps));
         }
     }
-    let ticks = y.ticks(ROWS / 2);
-    let row = |(i, row): (usize, &[u32; COLUMNS])| {
-        let tick = ticks.iter().find(|(_, up)| ROWS - 1 - up / 4 == i);
-        let (label, edge) = tick.map_or((String::new(), '│'), |(power, _)| (format!("1e{power} "), '┤'));
-        let dots: String = row.iter().filter_map(|dots| char::from_u32(0x2800 + dots)).collect();
-        format!("{label:>MARGIN$}{edge}{dots}\n")
-    };
-    let rows: String = canvas.iter().enumerate().map(row).collect();
-    let mut axis = vec!['─'; COLUMNS];
-    let mut labels = String::new();
-    for (power, across) in x.ticks(6) {
+
+    /// Returns the rows, each after the label of its tick.
+    fn rows(&self, ticks: &[(i64, usize)]) -> String {
+        let mut text = String::new();
+        for (i, row) in self.0.iter().enumerate() {
+            let tick = ticks.iter().find(|(_, up)| ROWS - 1 - up / 4 == i);
+            let (label, edge) =
+                tick.map_or((String::new(), '│'), |(power, _)| (format!("1e{power} "), '┤'));
+            text += &format!("{label:>MARGIN$}{edge}");
+            text.extend(row.iter().filter_map(|dots| char::from_u32(0x2800 + dots)));
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// Returns the horizontal axis and its labels.
+fn horizontal(ticks: &[(i64, usize)]) -> (String, String) {
+    let (mut axis, mut labels) = (['─'; COLUMNS], String::new());
+    for (power, across) in ticks {
         axis[across / 2] = '┬';
         let label = format!("1e{power}");
         let column = (MARGIN + 1 + across / 2).saturating_sub(label.len() / 2).min(WIDTH - label.len());
         labels += &" ".repeat(column.saturating_sub(labels.len()));
         labels += &label;
     }
-    let legend = curves.iter().map(|curve| {
-        let line = if curve.joined { "⠒⠒⠒" } else { "⠂⠐⠂" };
-        format!("{line} {}", curve.name)
-    });
-    let legend = legend.collect::<Vec<_>>().join("   ");
-    let axis: String = axis.into_iter().collect();
+    (axis.iter().collect(), labels)
+}
+
+/// Returns the curves with axes and a legend, in at most 80 columns; `None` if there is nothing to draw.
+pub fn log_log(curves: &[Curve]) -> Option<String> {
+    let points: Vec<_> = curves.iter().flat_map(|curve| &curve.points).collect();
+    let x = Axis::around(points.iter().map(|(x, _)| *x), 2 * COLUMNS)?;
+    let y = Axis::around(points.iter().map(|(_, y)| *y), 4 * ROWS)?;
+    let mut canvas = Canvas([[0; COLUMNS]; ROWS]);
+    for curve in curves {
+        let dots: Vec<_> = curve.points.iter().map(|(a, b)| [x.dot(*a), y.dot(*b)]).collect();
+        dots.iter().for_each(|dot| canvas.dot(*dot));
+        dots.windows(2).filter(|_| curve.joined).for_each(|pair| canvas.line(pair[0], pair[1]));
+    }
+    let legend = curves.iter().map(Curve::legend).collect::<Vec<_>>().join("   ");
+    let rows = canvas.rows(&y.ticks(ROWS / 2));
+    let (axis, labels) = horizontal(&x.ticks(6));
     let left = " ".repeat(MARGIN);
     let unit = format!("{:>WIDTH$}", "ε in N/m");
     Some(format!("{left}relative error of {legend}\n{rows}{left}└{axis}\n{labels}\n{unit}\n"))

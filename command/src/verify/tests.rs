@@ -12,18 +12,18 @@ fn case() -> Case<Exact> {
 }
 
 /// Returns the row of a claim of (1.13), with its proof or five cases in a number system.
-fn row(way: Way, status: Status) -> Row {
-    let decided = if way.is_some() && status != Status::Undecided { 4 } else { 0 };
-    let failed = way.is_some() && status == Status::Failed;
+fn row(column: Column, status: Status) -> Row {
+    let decided = if column.is_some() && status != Status::Undecided { 4 } else { 0 };
+    let failed = column.is_some() && status == Status::Failed;
     Row {
         equation: "1.13",
         claim: "rate",
         kind: "equal",
         status,
-        scalar: way,
+        scalar: column,
         reason: None,
         decided,
-        undecided: if way.is_some() { 5 - decided } else { 0 },
+        undecided: if column.is_some() { 5 - decided } else { 0 },
         worst: (decided > 0).then(|| (if failed { 1e80 } else { 2.5 }, "1/8".to_string())),
         counterexample: failed.then(case),
     }
@@ -98,9 +98,9 @@ Every claim that is not proved uses penalty::deflection,
 #[test]
 fn failures_of_proofs_and_of_number_systems_are_distinguished() {
     let reason = Some("division by 0".to_string());
-    let ways = [None, Some(NumberSystem::F32), Some(NumberSystem::F64)];
-    let broken = |way| Row { reason: reason.clone(), counterexample: None, ..row(way, Status::Failed) };
-    let (report, options) = report(ways.map(broken).to_vec());
+    let columns = [None, Some(NumberSystem::F32), Some(NumberSystem::F64)];
+    let broken = |column| Row { reason: reason.clone(), counterexample: None, ..row(column, Status::Failed) };
+    let (report, options) = report(columns.map(broken).to_vec());
     let text = capture(|out| table(out, &report, &options));
     let reason = "\n  division by 0\n\n";
     assert!(
@@ -112,27 +112,30 @@ fn failures_of_proofs_and_of_number_systems_are_distinguished() {
 /// One failure, in a proof or in numbers, first or last, is visible in the status and in every format.
 #[test]
 fn a_failure_is_seen_by_status_and_in_every_format() {
-    let ways = [None, Some(NumberSystem::F32), Some(NumberSystem::F64), Some(NumberSystem::Exact)];
-    let well = |way: Way| row(way, if way.is_none() { Status::Proved } else { Status::Held });
+    let columns = [None, Some(NumberSystem::F32), Some(NumberSystem::F64), Some(NumberSystem::Exact)];
+    let well = |column: Column| row(column, if column.is_none() { Status::Proved } else { Status::Held });
     let printed = |report: &Report, options: &verify::Options| {
         [Format::Table, Format::Json, Format::Markdown]
             .map(|format| capture(|out| print(out, report, options, format)))
     };
     let failures = |texts: [String; 3]| texts.map(|text| text.to_lowercase().matches("failed").count());
-    let (all_well, options) = report(ways.map(well).to_vec());
+    let (all_well, options) = report(columns.map(well).to_vec());
     assert_eq!(exit(&all_well), Exit::Success);
     // The summary in JSON has a key with this name.
     assert_eq!(failures(printed(&all_well, &options)), [0, 1, 0]);
-    for wrong in ways {
-        let (mistaken, options) =
-            report(ways.map(|way| if way == wrong { row(way, Status::Failed) } else { well(way) }).to_vec());
-        assert_eq!(exit(&mistaken), Exit::Unsatisfied, "{}", name(wrong));
+    for wrong in columns {
+        let (mistaken, options) = report(
+            columns
+                .map(|column| if column == wrong { row(column, Status::Failed) } else { well(column) })
+                .to_vec(),
+        );
+        assert_eq!(exit(&mistaken), Exit::Unsatisfied, "{}", column_name(wrong));
         let texts = printed(&mistaken, &options);
         assert!(texts[1].contains("\"failed\": 1"), "{}", texts[1]);
         let of_table = if wrong.is_some() { 2 } else { 1 };
-        assert_eq!(failures(texts), [of_table, 2, 1], "{}", name(wrong));
+        assert_eq!(failures(texts), [of_table, 2, 1], "{}", column_name(wrong));
     }
-    let (open, _) = report(vec![row(ways[1], Status::Undecided)]);
+    let (open, _) = report(vec![row(columns[1], Status::Undecided)]);
     assert_eq!(exit(&open), Exit::Success);
     let (nothing, _) = report(Vec::new());
     assert_eq!(exit(&nothing), Exit::Unsatisfied);

@@ -6,15 +6,12 @@ mod other;
 mod unix;
 
 #[cfg(not(unix))]
-pub use other::has_no_format;
-#[cfg(not(unix))]
-use other::{has_ended, kill, start};
+use other as system;
 use std::io;
 use std::process::{Child, Command, ExitStatus};
+pub use system::has_no_format;
 #[cfg(unix)]
-pub use unix::has_no_format;
-#[cfg(unix)]
-use unix::{has_ended, kill, start};
+use unix as system;
 
 /// A child process that is ended when dropped.
 ///
@@ -25,7 +22,7 @@ pub struct Group(Child);
 impl Group {
     /// Starts a program.
     pub fn start(command: &mut Command) -> io::Result<Self> {
-        start(command).map(Group)
+        system::start(command).map(Group)
     }
 
     /// Returns the leader, for its pipes.
@@ -35,12 +32,12 @@ impl Group {
 
     /// Returns `true` if the leader has ended.
     pub fn has_ended(&mut self) -> bool {
-        has_ended(&mut self.0)
+        system::has_ended(&mut self.0)
     }
 
     /// Ends the whole group.
     pub fn end(&mut self) -> io::Result<ExitStatus> {
-        kill(&mut self.0);
+        system::kill(&mut self.0);
         self.0.wait()
     }
 }

@@ -259,7 +259,7 @@ fn nothing_that_is_read_takes_long() {
     garbled(&format!("{U}, {N}, \"steps\": {deep}"));
     assert_eq!(read("{\"a\":".repeat(100_000).as_bytes(), "a"), None);
 
-    let nines = "9".repeat(LONGEST_NUMBER + 1);
+    let nines = "9".repeat(MAX_NUMBER_DIGITS + 1);
     let reason = garbled(&format!("{N}, \"deflection\": {nines}"));
     assert!(reason.ends_with("must have no more than 4096 digits"), "{reason}");
     assert_eq!(numbers(&nines[1..], "1")[0], exact(&nines[1..]));
@@ -276,14 +276,17 @@ fn nothing_that_is_read_takes_long() {
     }
     let step = "{\"deflection\": 1, \"contact_force\": 1}";
     let steps = |count| format!("{U}, {N}, \"steps\": [{}]", vec![step; count].join(","));
-    assert_eq!(answered(&steps(MOST_STEPS)).steps.len(), MOST_STEPS);
-    assert_eq!(garbled(&steps(MOST_STEPS + 1)), "there must be no more than 10000 steps");
+    assert_eq!(answered(&steps(MAX_STEPS)).steps.len(), MAX_STEPS);
+    assert_eq!(garbled(&steps(MAX_STEPS + 1)), "there must be no more than 10000 steps");
     let of_bytes = |bytes| {
         let line = format!(r#"{{"id": "a", {U}, {N}}}"#);
         format!("{line}{}", " ".repeat(bytes - line.len()))
     };
-    assert!(matches!(said(of_bytes(LONGEST)), Ok(Reply::Answered(_))));
-    assert_eq!(said(of_bytes(LONGEST + 1)), Err("a line must have no more than 16777216 bytes".to_string()));
+    assert!(matches!(said(of_bytes(MAX_LINE_BYTES)), Ok(Reply::Answered(_))));
+    assert_eq!(
+        said(of_bytes(MAX_LINE_BYTES + 1)),
+        Err("a line must have no more than 16777216 bytes".to_string())
+    );
     // A second or so.
     assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
 }

@@ -49,8 +49,10 @@ fn a_threshold_is_printed_with_its_unit() {
         (missing(|system| system::reaction(system) < number("1e-2")), "|R|", "N"),
     ] {
         let threshold = report.conditions[0].threshold.as_ref().expect("a threshold");
-        let [wrong, right] =
-            [threshold.wrong.decimal(FEW, Round::Up), threshold.right.decimal(FEW, Round::Down)];
+        let [wrong, right] = [
+            threshold.wrong.decimal(ERROR_DIGITS, Round::Up),
+            threshold.right.decimal(ERROR_DIGITS, Round::Down),
+        ];
         let count = report.summary().wrong;
         let text = format!(
             "One mistake explains all {count} wrong answers, but not the right ones: the plane never acts. gap = H \
@@ -141,7 +143,7 @@ fn the_report_lists_the_tested_penalties() {
     );
     let contact = &problems(1, 1, &[Family::Contact])[0].system;
     let loads = system::weight(contact) + &contact.c * system::gap(contact);
-    let least = (system::reaction(contact) / loads).decimal(FEW, Round::Up);
+    let least = (system::reaction(contact) / loads).decimal(ERROR_DIGITS, Round::Up);
     let text = format!(
         "No error above 1e-6 was found in 1 system of 1 family, with one unknown and one plane. Missed \
          contact would be detected from |R| = {least} (|m g| + |c (H − l)|) on, false contact would not be \
