@@ -18,6 +18,7 @@ mod numbers;
 mod ode;
 mod penalty;
 mod rounding;
+mod source;
 mod structure;
 mod system;
 
@@ -26,6 +27,7 @@ pub use entry::Entry;
 pub use formulas::computed;
 pub use hypotheses::{Hypotheses, hypotheses};
 pub use numbers::{find_entries, find_entry};
+pub use source::{SourceLine, function_line};
 
 use crate::formula::{Registry, Statement};
 use crate::number::tree::Site;

@@ -1,6 +1,6 @@
 //! Entries of the chapter.
 
-use super::registry;
+use super::{SourceLine, registry};
 use crate::formula::{Hypothesis, Notation, Statement};
 
 /// An entry of the chapter: an equation, the theorem, a remark, a figure, a note on a loose spot, or a result
@@ -17,6 +17,8 @@ pub struct Entry {
     pub title: &'static str,
     /// Section.
     pub section: &'static str,
+    /// Line of the source on which it begins.
+    pub source: SourceLine,
     statement: &'static str,
     latex: Option<&'static str>,
     /// Hypotheses that its claims inherit.
@@ -72,8 +74,9 @@ impl Entry {
         registry().format_hypotheses(&self.hypotheses)
     }
 
+    #[track_caller]
     pub(super) fn new(equation: &'static str, title: &'static str) -> Self {
-        Entry { equation, title, ..Entry::default() }
+        Entry { equation, title, source: SourceLine::of_caller(), ..Entry::default() }
     }
 
     pub(super) fn within(self, section: &'static str) -> Self {
