@@ -6,9 +6,12 @@ use crate::args;
 use crate::output::{self, Exit, Failure, formats, record};
 use graph::graph;
 use serde::Serialize;
-use spring_mass_contact::claims::{Entry, entries};
+use spring_mass_contact::claims::{Entry, SourceLine, entries, function_line};
 use spring_mass_contact::verify::claim_names;
+use std::ffi::OsStr;
 use std::io::{self, Write};
+use std::iter;
+use std::path::Path;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -65,6 +68,11 @@ fn json(entry: &Entry) -> impl Serialize {
         latex: entry.latex(),
         hypotheses: entry.format_hypotheses(),
         function: function(entry),
+        functions: function_lines(entry)
+            .map(|(path, source)| record! { path: path, file: source.file, line: source.line })
+            .collect::<Vec<_>>(),
+        entry: record! { file: entry.source.file.clone(), line: entry.source.line },
+        derivation: derivation(entry),
         follows_from: entry.follows_from.clone(),
         claims: claim_names(entry.equation),
     }
@@ -73,6 +81,22 @@ fn json(entry: &Entry) -> impl Serialize {
 /// Returns the first function of an entry.
 fn function(entry: &Entry) -> Option<&'static str> {
     entry.functions.first().copied()
+}
+
+/// Returns the functions of an entry with their lines in the source.
+fn function_lines(entry: &Entry) -> impl Iterator<Item = (&'static str, SourceLine)> {
+    entry.functions.iter().map(|path| (*path, function_line(path).unwrap_or_default()))
+}
+
+/// Returns the page of the book with the derivation, which has the name of the section's file.
+fn derivation(entry: &Entry) -> String {
+    let section = Path::new(&entry.source.file).file_stem().and_then(OsStr::to_str).unwrap_or_default();
+    let page = match section {
+        "ode" => "convergence",
+        "notes" => "loose",
+        section => section,
+    };
+    format!("book/src/{page}.md")
 }
 
 fn table(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
@@ -96,12 +120,14 @@ fn markdown(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
 
 fn details(out: &mut dyn Write, entry: &Entry) -> io::Result<()> {
     writeln!(out, "{} {}, section {}", entry.label(), entry.title, entry.section)?;
-    let rows = [
-        ("states", entry.statement()),
-        ("if", entry.format_hypotheses().join(", ")),
-        ("functions", entry.functions.join(", ")),
+    let functions = function_lines(entry).map(|(path, source)| format!("{source} {path}"));
+    let mut rows = vec![("states", entry.statement()), ("if", entry.format_hypotheses().join(", "))];
+    rows.extend(iter::once("functions").chain(iter::repeat("")).zip(functions));
+    rows.extend([
         ("follows from", entry.follows_from.join(", ")),
         ("claims", claim_names(entry.equation).join(", ")),
-    ];
+        ("entry", entry.source.to_string()),
+        ("derivation", derivation(entry)),
+    ]);
     output::list(out, rows)
 }

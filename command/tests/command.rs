@@ -11,6 +11,7 @@ use spring_mass_contact::number::{Exact, PositivePart, RangeError, ToExact};
 use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{Method, Plane, solve_observed};
 use spring_mass_contact::verify::claim_names;
+use std::iter;
 use std::process::{Command, Output, Stdio};
 use std::sync::LazyLock;
 
@@ -921,7 +922,8 @@ fn equations_are_data() {
     let (all, code) = json(&["equations"]);
     assert_eq!((array(&all).len(), code), (entries().len(), Some(0)));
     for (row, entry) in array(&all).iter().zip(entries()) {
-        let all = "claims equation follows_from function hypotheses latex section statement title";
+        let all = "claims derivation entry equation follows_from function functions hypotheses latex section \
+                   statement title";
         assert_eq!(keys(row), words(all));
         assert_eq!(row["equation"], entry.equation);
         for key in ["hypotheses", "follows_from", "claims"] {
@@ -931,6 +933,9 @@ fn equations_are_data() {
             assert!(row[key].as_str().is_some_and(|text| !text.is_empty()), "{row}");
         }
         assert_eq!(row["function"].as_str(), entry.functions.first().copied());
+        let functions: Vec<_> =
+            array(&row["functions"]).iter().map(|f| f["path"].as_str().unwrap()).collect();
+        assert_eq!(functions, entry.functions);
         assert_eq!(row["latex"].as_str(), entry.latex().as_deref());
         assert_eq!(row["claims"], Value::from(claim_names(entry.equation)));
     }
@@ -941,6 +946,53 @@ fn equations_are_data() {
     }
     let (two, _) = json(&["equations", "1.13", "1.1", "1.13"]);
     assert_eq!(array(&two).iter().map(|e| &e["equation"]).collect::<Vec<_>>(), ["1.1", "1.13"]);
+}
+
+/// Returns a line of a file of the repository, and how it is named.
+fn source_line(place: &Value) -> (String, String) {
+    let (file, line) = (place["file"].as_str().expect("a path"), place["line"].as_u64().expect("a number"));
+    let text = std::fs::read_to_string(root().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let found = text.lines().nth(line as usize - 1).unwrap_or_else(|| panic!("{file} has no line {line}"));
+    (found.to_string(), format!("{file}:{line}"))
+}
+
+/// An equation is found in the source: definitions of functions, the entry, and the page that displays it.
+#[test]
+fn an_equation_stands_on_the_printed_lines() {
+    let (all, _) = json(&["equations"]);
+    let numbers = array(&all).iter().map(|row| row["equation"].as_str().unwrap());
+    let output = contact(&iter::once("equations").chain(numbers).collect::<Vec<_>>());
+    // Long lines are broken.
+    let blocks: Vec<_> = stdout(&output)
+        .split("\n\n")
+        .map(|text| text.split_whitespace().collect::<Vec<_>>().join(" "))
+        .collect();
+    assert_eq!(blocks.len(), array(&all).len());
+    for (row, block) in array(&all).iter().zip(blocks) {
+        for function in array(&row["functions"]) {
+            let path = function["path"].as_str().unwrap();
+            let (_, name) = path.split_once("::").expect("a module");
+            let (line, place) = source_line(function);
+            let head = line.strip_prefix("pub fn ").or(line.strip_prefix("pub struct "));
+            let rest = head.and_then(|head| head.strip_prefix(name));
+            assert!(rest.is_some_and(|rest| rest.starts_with(['<', '('])), "{path}: {line}");
+            assert!(block.contains(&format!(" {place} {path} ")), "{block}");
+        }
+        let equation = row["equation"].as_str().unwrap();
+        let (line, place) = source_line(&row["entry"]);
+        assert_eq!(line.trim_start().find(&format!("Entry::new(\"{equation}\", ")), Some(0), "{line}");
+        let page = row["derivation"].as_str().expect("a path");
+        assert!(block.ends_with(&format!(" entry {place} derivation {page}")), "{block}");
+        let page =
+            std::fs::read_to_string(root().join(page)).unwrap_or_else(|error| panic!("{page}: {error}"));
+        if equation.starts_with(|c: char| c.is_ascii_digit()) {
+            assert!(page.contains(&format!("{{{{#eq {equation}}}}}")), "{equation}");
+        }
+        if equation.starts_with("note ") || equation.starts_with("Theorem ") {
+            let anchor = equation.to_lowercase().replace(['.', ' '], "-");
+            assert!(page.contains(&format!("{{#{anchor}}}")), "{equation}");
+        }
+    }
 }
 
 /// In any of the ways that numbers are written, and a name and its number as two words.
@@ -989,7 +1041,7 @@ fn markdown_is_a_table() {
 
 /// Compares a file of the project with what it should be; with `UPDATE=1` writes it.
 fn compare(file: &str, update: impl Fn(&str) -> String) {
-    // Two tests write the same page.
+    // Several tests write the same page.
     static WRITING: std::sync::Mutex<()> = std::sync::Mutex::new(());
     let _one_at_a_time = WRITING.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let path = root().join(file);
@@ -1015,6 +1067,16 @@ fn in_block(text: &str, begin: &str, update: impl Fn(&str) -> String) -> String 
     let (block, tail) = rest.split_once("```").expect("a fence ends the block");
     let lines: String = block.lines().map(|line| update(line) + "\n").collect();
     format!("{head}{begin}{lines}```{tail}")
+}
+
+#[test]
+fn the_book_shows_an_equation_as_it_is_printed() {
+    compare("book/src/command.md", |page| {
+        let begin = "```console\n$ contact equations 1.16\n";
+        let (head, rest) = page.split_once(begin).expect("the sample");
+        let (_, tail) = rest.split_once("```").expect("a fence ends the block");
+        format!("{head}{begin}{}```{tail}", stdout(&contact_line("equations 1.16")))
+    });
 }
 
 /// All but the times.
