@@ -88,7 +88,7 @@ fn function_lines(entry: &Entry) -> impl Iterator<Item = (&'static str, SourceLi
     entry.functions.iter().map(|path| (*path, function_line(path).unwrap_or_default()))
 }
 
-/// Returns the page of the book with the derivation, which has the name of the section's file.
+/// Returns the page of the book with the derivation, which is named like the file of the entry except for two.
 fn derivation(entry: &Entry) -> String {
     let section = Path::new(&entry.source.file).file_stem().and_then(OsStr::to_str).unwrap_or_default();
     let page = match section {

@@ -1,4 +1,4 @@
-//! Indented JSON in which what is deeply nested is on one line.
+//! Indented JSON with deeply nested values on one line.
 
 use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter};
 use std::io::{self, Write};

@@ -195,8 +195,7 @@ fn counts(out: &mut dyn Write, report: &Report, columns: &[Column]) -> io::Resul
     output::table(out, names, rows, 1..2)
 }
 
-/// Returns the claim and the reason of a failure, which can be the same in number systems; their rows are
-/// adjacent.
+/// Returns the key that equal failures in different number systems share; their rows are adjacent.
 fn failure_key(row: &Row) -> impl PartialEq {
     (row.equation, row.claim, row.scalar.is_none(), &row.reason, &row.counterexample)
 }

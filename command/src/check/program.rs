@@ -121,7 +121,7 @@ enum SessionError {
     /// It returned something other than the answer.
     UnexpectedReply(String),
     Ended,
-    /// It did not answer in time, with its output.
+    /// It did not answer in time; describes its output.
     TimedOut(String),
 }
 
@@ -203,7 +203,7 @@ impl Running {
         }
     }
 
-    /// Lets it end by itself if possible.
+    /// Closes its stdin, and lets it end by itself within `grace`.
     fn close(mut self, grace: Duration) {
         let (nobody, _) = mpsc::channel();
         drop(std::mem::replace(&mut self.requests, nobody));

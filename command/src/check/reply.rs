@@ -147,7 +147,7 @@ fn answer(object: &Object) -> Result<Reply, String> {
     Ok(Reply::Answered(Box::new(Answer { deflection, contact_force, penetration, status, used, steps })))
 }
 
-/// Returns the error, unless there are answers and it is an explicit report of none.
+/// Returns the error. Beside answers, `false`, `0` and an empty text mean that there is none.
 fn error<'a>(object: &Object<'a>) -> Result<Option<&'a RawValue>, String> {
     let answers = object.get("deflection").is_some() && object.get("contact_force").is_some();
     let error = non_null(object, "", "error")?;

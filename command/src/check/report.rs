@@ -177,7 +177,7 @@ fn carried_over(report: &Report) -> Option<String> {
     ))
 }
 
-/// Describes what separates the wrong answers from the right ones.
+/// Describes the conditions under which answers are wrong.
 fn conditions(report: &Report) -> Option<String> {
     let first = report.conditions.first()?;
     let of = match first.state {
