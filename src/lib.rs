@@ -41,8 +41,8 @@
 //! ```
 //! To find an equation, for example (1.16): its number begins the doc comments of its functions in
 //! [`chapter`], and names its entry and its claims in `claims`. On the command line, `contact equations 1.16`
-//! names the functions and the claims, `contact prove 1.16` prints their proofs, and `contact verify 1.16`
-//! checks them.
+//! prints the lines of the functions and of the entry, and names the claims; `contact prove 1.16` prints their
+//! proofs, and `contact verify 1.16` checks them.
 //!
 //! # Features
 //! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: certificates, step counts,
