@@ -14,7 +14,6 @@
 //! ```
 
 mod augmentation;
-mod check;
 mod closed;
 #[cfg(feature = "mpfr")]
 mod exact;
@@ -22,15 +21,16 @@ mod functional;
 mod root;
 mod scalar;
 mod solution;
+mod validate;
 
 pub use augmentation::{Augmentation, Iterate};
-pub use check::SolveError;
 pub use closed::kth_iterate;
 #[cfg(feature = "mpfr")]
 pub use exact::*;
 pub use functional::{Condition, DualEnclosure, FunctionalError, penalty_for_functional, solve_functional};
 pub use scalar::{Interval, Scalar};
 pub use solution::{Bounds, MAX_AUGMENTATIONS, Method, Outcome, Plane, Solution, State};
+pub use validate::SolveError;
 
 use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
 use num_traits::One;
@@ -99,9 +99,9 @@ pub fn solve_observed<T: Scalar>(
     plane: Plane,
     each: impl FnMut(&Iterate<T>),
 ) -> Result<Solution<T>, SolveError> {
-    check::system(system)?;
-    check::method(method)?;
-    check::products(system)?;
+    validate::system(system)?;
+    validate::method(method)?;
+    validate::products(system)?;
     let enclosed = system.map(T::enclose);
     let reaction = system::reaction(&enclosed);
     let state = State::from_reaction(&reaction, system);
@@ -119,7 +119,7 @@ pub fn solve_observed<T: Scalar>(
             floor: found.floor,
             bounds,
         };
-        check::require_finite(&solution)?;
+        validate::require_finite(&solution)?;
         Ok(solution)
     };
     match method {
@@ -143,7 +143,7 @@ pub fn solve_observed<T: Scalar>(
             RawSolution::direct(deflection, force)
         }),
         Method::Augmented { penalty: eps, tolerance, max_augmentations, start } => {
-            check::stiffness(system, eps)?;
+            validate::stiffness(system, eps)?;
             let steps = Augmentation::new(system, eps).with_multiplier(start.clone()).over(plane);
             finish(iterate(steps, system, &enclosed, &target, tolerance, *max_augmentations, each)?)
         }
@@ -282,11 +282,11 @@ fn iterate<T: Scalar>(
     let mut digits = 0_u64;
     loop {
         let step = steps.step();
-        let length = step.multiplier.growing_digits();
+        let length = step.multiplier.variable_bit_length();
         digits = digits.saturating_add(length);
-        check::digits(length, digits)?;
-        check::in_range(step.deflection.is_finite(), "deflection")?;
-        check::in_range(steps.multiplier().is_finite(), "multiplier")?;
+        validate::digits(length, digits)?;
+        validate::in_range(step.deflection.is_finite(), "deflection")?;
+        validate::in_range(steps.multiplier().is_finite(), "multiplier")?;
         each(&step);
         // An a posteriori test; the error computed without a bound is never larger than its bound.
         let within = match &free {
@@ -350,7 +350,7 @@ pub fn penalty_for_penetration<T: Scalar>(
     tolerance: &T,
 ) -> Result<Option<T>, SolveError> {
     let state = State::of(system)?;
-    check::positive("tolerance", tolerance)?;
+    validate::positive("tolerance", tolerance)?;
     if state != State::Contact {
         return Ok(None);
     }

@@ -1,7 +1,7 @@
 //! The closed form of (1.16): the k-th iterate without those before it.
 
-use super::check::{self, SolveError};
 use super::scalar::LONGEST;
+use super::validate::{self, SolveError};
 use super::{Interval, Iterate, Plane, Scalar, to_interval};
 use crate::chapter::{SpringMass, augmented, penalty, structure};
 use crate::number::PositivePart;
@@ -40,9 +40,9 @@ pub fn kth_iterate<T: Scalar>(
     k: u64,
     plane: Plane,
 ) -> Result<Iterate<Interval<T>>, SolveError> {
-    check::system(system)?;
-    check::positive("penalty", eps)?;
-    check::finite_number("initial multiplier", start)?;
+    validate::system(system)?;
+    validate::positive("penalty", eps)?;
+    validate::finite_number("initial multiplier", start)?;
     let (system, eps, lambda) = (system.map(T::enclose), eps.enclose(), start.enclose());
     let rho = augmented::contraction(&system, &eps);
     // For λ ≥ 0 the closed forms with brackets suffice (see `closed`). A negative λ₀ needs one separate step.

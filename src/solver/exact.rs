@@ -2,22 +2,22 @@
 //! parsing and display.
 
 mod advise;
-mod check;
 mod count;
 mod display;
 mod format;
+mod gmp_scalars;
+mod guarantees;
 pub mod laws;
-mod reach;
 mod read;
 mod residuals;
-mod scalar;
+mod rounding_laws;
 mod series;
 mod sweep;
 
 pub use advise::{Advice, Recommendation, advise};
 pub use count::exact_augmentation_count;
 pub use format::{format_equation, format_short, format_short_bound};
-pub use reach::{
+pub use guarantees::{
     guaranteed_max_augmentations, is_convergence_guaranteed, required_precision, rounding_floor,
 };
 pub use read::ReadError;
@@ -26,6 +26,7 @@ pub use sweep::{SweepRow, best_penalty, penalties, penalty_force_bound, sweep};
 
 use super::{
     Interval, MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError, State, root, solve,
+    validate,
 };
 use crate::number::{Exact, ToExact};
 

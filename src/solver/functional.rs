@@ -1,7 +1,7 @@
 //! User-defined penalty functionals (§1.3.2): their conditions and their equilibrium.
 
-use super::check::{self, SolveError};
 use super::root::{Equation, RootBracket, middle, reduced_system};
+use super::validate::{self, SolveError};
 use super::{Bounds, Interval, Method, Outcome, Scalar, Solution, State, solve, to_interval};
 use crate::chapter::{SpringMass, augmented, contact, structure, system};
 use crate::number::{Dual, PositivePart};
@@ -121,7 +121,7 @@ pub fn solve_functional<T: Scalar, const N: usize>(
     functional: impl Fn(&[DualEnclosure<T>; N], &DualEnclosure<T>) -> DualEnclosure<T>,
 ) -> Result<Solution<T>, FunctionalError> {
     let rigid = Solution { multiplier: None, ..solve(system, &Method::Lagrange)? };
-    check::positive("tolerance", tolerance)?;
+    validate::positive("tolerance", tolerance)?;
     let parameters = lifted(parameters)?;
     if rigid.state != State::Contact {
         return Ok(rigid);
@@ -176,7 +176,7 @@ fn in_contact<T: Scalar>(
         bounds,
         ..rigid
     };
-    check::require_finite(&solution)?;
+    validate::require_finite(&solution)?;
     Ok(solution)
 }
 
@@ -210,7 +210,7 @@ pub fn penalty_for_functional<T: Scalar, const N: usize>(
     functional: impl Fn(&[DualEnclosure<T>; N], &DualEnclosure<T>) -> DualEnclosure<T>,
 ) -> Result<T, FunctionalError> {
     let touches = State::of(system)? == State::Contact;
-    check::positive("tolerance", tolerance)?;
+    validate::positive("tolerance", tolerance)?;
     lifted(parameters)?;
     let mut parameters = parameters.clone();
     let unbounded = || broken(Condition::UnboundedInPenalty, tolerance);
@@ -247,6 +247,6 @@ pub(super) fn is_finite<T: Scalar>(x: &T::Enclosure) -> bool {
 }
 
 fn lifted<T: Scalar, const N: usize>(parameters: &[T; N]) -> Result<[DualEnclosure<T>; N], SolveError> {
-    parameters.iter().try_for_each(|x| check::finite_number("penalty parameter", x))?;
+    parameters.iter().try_for_each(|x| validate::finite_number("penalty parameter", x))?;
     Ok(parameters.each_ref().map(|x| Dual::constant(x.enclose())))
 }

@@ -1,8 +1,8 @@
 //! Root of c p + W′(p) = R for any W, between two points with certain signs.
 
-use super::check::SolveError;
 use super::functional::{Condition, FunctionalError, broken, is_finite, vanishes};
 use super::scalar::power;
+use super::validate::SolveError;
 use super::{Interval, Scalar, to_interval};
 use crate::chapter::{SpringMass, structure};
 use crate::number::{Dual, PositivePart};

@@ -157,7 +157,7 @@ pub trait Scalar: OrderedField {
     /// Returns the number of binary digits of a number whose length grows with arithmetic, counted as by
     /// [`Exact::bit_length`](crate::number::Exact::bit_length). The default is 0, for numbers of constant
     /// length. An augmentation ends with an error before it takes too long.
-    fn growing_digits(&self) -> u64 {
+    fn variable_bit_length(&self) -> u64 {
         0
     }
 

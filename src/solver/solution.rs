@@ -1,6 +1,6 @@
 //! Types of the solver: state, plane, method, outcome and solution.
 
-use super::{Interval, Scalar, SolveError, check};
+use super::{Interval, Scalar, SolveError, validate};
 use crate::chapter::{SpringMass, system};
 use crate::number::Field;
 use std::cmp::Ordering;
@@ -51,7 +51,7 @@ impl State {
     /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
     /// ```
     pub fn of<T: Scalar>(system: &SpringMass<T>) -> Result<State, SolveError> {
-        check::system(system)?;
+        validate::system(system)?;
         Ok(State::from_reaction(&system::reaction(&system.map(T::enclose)), system))
     }
 

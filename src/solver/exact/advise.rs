@@ -1,15 +1,17 @@
 //! Advice on the penalty: proved laws of rounding propose a method, and a run confirms it.
 
 use super::count::count;
-use super::reach::{Laws, Limits, last, least_normal, rounding_floor};
+use super::guarantees::{last_where, rounding_floor};
+use super::rounding_laws::{PenaltyRange, RoundingLaws, min_normal};
 use super::{
-    MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError, State, check, exact, solve,
+    MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError, State, exact, solve, validate,
 };
 use crate::chapter::{SpringMass, contact};
-use crate::number::{Exact, ExactText, PositivePart, RangeError};
+use crate::number::{Exact, ExactText, PositivePart};
 use num_traits::Zero;
 use rug::Integer;
 use rug::float::Round;
+use std::cmp::Ordering;
 
 /// Result of [`advise`].
 #[derive(Clone, Debug, PartialEq)]
@@ -82,192 +84,233 @@ pub struct Recommendation<T> {
 /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
 pub fn advise<T: Scalar + ExactText>(system: &SpringMass<T>, tolerance: &T) -> Result<Advice<T>, SolveError> {
-    check::positive("tolerance", tolerance)?;
-    let solution = solve(system, &Method::Lagrange)?;
-    let state = solution.state;
-    let (numbers, tol) = (system.map(exact), exact(tolerance));
+    validate::positive("tolerance", tolerance)?;
+    let by_multiplier = solve(system, &Method::Lagrange)?;
+    let state = by_multiplier.state;
+    let (exact_system, exact_tolerance) = (system.map(exact), exact(tolerance));
+    // The coarsest parameter determines the precision.
     let SpringMass { c, m, g, l, h } = system;
     let eta = [c, m, g, l, h].map(|x| x.number_system().unit_roundoff()).into_iter().max();
     let eta = eta.expect("five parameters");
     let floor = rounding_floor(system, Plane::Unilateral, &eta)?;
-    let promised = floor.as_ref().is_some_and(|floor| tol > *floor);
-    let arithmetic = match Laws::of(&numbers, &eta, &least_normal(tolerance)) {
-        _ if state == State::Separated => Arithmetic::Free,
-        Some(laws) => Arithmetic::Rounded(Box::new(laws)),
-        None => Arithmetic::Exact,
+    let advisor = Advisor {
+        system,
+        tolerance,
+        exact_deflection: contact::deflection(&exact_system),
+        is_above_floor: floor.as_ref().is_some_and(|floor| exact_tolerance > *floor),
+        arithmetic: match RoundingLaws::new(&exact_system, &eta, &min_normal(tolerance)) {
+            _ if state == State::Separated => Arithmetic::Separated,
+            Some(laws) => Arithmetic::Rounded(Box::new(laws)),
+            None => Arithmetic::Exact,
+        },
+        exact_system,
+        exact_tolerance,
     };
-    let answer = contact::deflection(&numbers);
-    let task = Task { system, tolerance, tol, answer, numbers, promised, arithmetic };
-    let mut choices = Vec::from_iter(task.reached(Method::Lagrange, &solution));
-    if !choices.is_empty() {
-        choices.extend(task.iterative());
+    let mut recommendations = Vec::from_iter(advisor.assess(Method::Lagrange, &by_multiplier));
+    if !recommendations.is_empty() {
+        recommendations.extend(advisor.recommend_penalty_and_augmentation());
     }
-    Ok(Advice { state, floor, recommendations: choices })
+    Ok(Advice { state, floor, recommendations })
 }
 
 /// Returns the number rounded to `digits` digits in the given direction; the number itself if its exponent
 /// has more digits than the parser accepts.
-fn short(x: &Exact, digits: usize, round: Round) -> Exact {
+fn round_to_digits(x: &Exact, digits: usize, round: Round) -> Exact {
     x.decimal(digits, round).parse().unwrap_or_else(|_| x.clone())
 }
 
 /// Returns the next larger number with `digits` significant digits, at most three.
-fn digits_above(x: &Exact, digits: usize) -> Exact {
-    let above = short(x, digits, Round::Up);
-    if above > *x { above } else { short(&(x * Exact::from(1001) / Exact::from(1000)), digits, Round::Up) }
+fn next_above(x: &Exact, digits: usize) -> Exact {
+    let rounded_up = round_to_digits(x, digits, Round::Up);
+    if rounded_up > *x {
+        rounded_up
+    } else {
+        round_to_digits(&(x * Exact::from(1001) / Exact::from(1000)), digits, Round::Up)
+    }
 }
 
 /// Returns the smallest penalty, within a hundredth, that needs at most [`MAX_AUGMENTATIONS`], starting the
 /// search from `eps`. A larger penalty never needs more augmentations, and a sufficiently large one always
-/// converges.
-fn softest(eps: &Exact, augmentations: impl Fn(&Exact) -> Option<Integer>) -> Exact {
-    let in_time = |eps: &Exact| augmentations(eps).is_some_and(|most| most <= MAX_AUGMENTATIONS);
-    let times = |n: i32| eps * Exact::power_of_two(n);
-    let soft = if in_time(eps) {
-        times(-last(|n| in_time(&times(-n))))
+/// converges. `augmentations` returns the number for a penalty, or `None` if it does not converge.
+fn min_penalty_within_limit(eps: &Exact, augmentations: impl Fn(&Exact) -> Option<Integer>) -> Exact {
+    let suffices = |eps: &Exact| augmentations(eps).is_some_and(|k| k <= MAX_AUGMENTATIONS);
+    let scaled = |n: i32| eps * Exact::power_of_two(n);
+    let sufficient = if suffices(eps) {
+        scaled(-last_where(|n| suffices(&scaled(-n))))
     } else {
-        times(last(|n| !in_time(&times(n))) + 1)
+        scaled(last_where(|n| !suffices(&scaled(n))) + 1)
     };
-    // Half of it needs more; seven bisections leave an interval of 1/256 of `soft`.
+    // Half of it is too small; seven bisections leave an interval of 1/256 of it.
     let half = Exact::power_of_two(-1);
-    let bisected = (0..7).fold([&soft * &half, soft], |[below, found], _| {
-        let middle = (&below + &found) * &half;
-        if in_time(&middle) { [below, middle] } else { [middle, found] }
-    });
-    let [_, found] = bisected;
-    found
+    let mut interval = [&sufficient * &half, sufficient];
+    for _ in 0..7 {
+        let [too_small, sufficient] = interval;
+        let middle = (&too_small + &sufficient) * &half;
+        interval = if suffices(&middle) { [too_small, middle] } else { [middle, sufficient] };
+    }
+    let [_, sufficient] = interval;
+    sufficient
 }
 
-/// The arithmetic that decides which penalties suffice.
+/// The arithmetic that determines which penalties suffice.
 enum Arithmetic {
     /// Contact or grazing without rounding.
     Exact,
     /// Contact or grazing, with the laws of rounding.
-    Rounded(Box<Laws>),
+    Rounded(Box<RoundingLaws>),
     /// Separated: every method computes m g / c.
-    Free,
+    Separated,
 }
 
-/// A system, a tolerance, and the arithmetic.
-struct Task<'a, T> {
+/// A system with a tolerance, and all that is known about them before a method is run.
+struct Advisor<'a, T> {
     system: &'a SpringMass<T>,
     tolerance: &'a T,
-    /// The exact system and the deflection to be computed.
-    numbers: SpringMass<Exact>,
-    tol: Exact,
-    answer: Exact,
+    exact_system: SpringMass<Exact>,
+    exact_tolerance: Exact,
+    exact_deflection: Exact,
     /// Whether the tolerance is above the rounding floor.
-    promised: bool,
+    is_above_floor: bool,
     arithmetic: Arithmetic,
 }
 
-impl<T: Scalar + ExactText> Task<'_, T> {
+impl<T: Scalar + ExactText> Advisor<'_, T> {
     /// Returns the penalty method and the augmentation, if they can be guaranteed.
-    fn iterative(&self) -> Vec<Recommendation<T>> {
+    fn recommend_penalty_and_augmentation(&self) -> Vec<Recommendation<T>> {
         // If the penalty method does not meet the tolerance, the augmentation is not guaranteed to meet it.
-        let Some(limits) = self.penalties() else { return Vec::new() };
-        let any_will_do = limits.from.is_zero();
-        let eps = if any_will_do { Exact::from(10) * &self.numbers.c } else { digits_above(&limits.from, 2) };
-        let penalty = self.choice(&limits, &eps, |penalty| Method::Penalty { penalty });
-        let augmentation = self.promised.then(|| self.augmentation(eps, any_will_do));
+        let Some(range) = self.penalty_range() else { return Vec::new() };
+        let every_penalty_suffices = range.min.is_zero();
+        let eps = if every_penalty_suffices {
+            Exact::from(10) * &self.exact_system.c
+        } else {
+            next_above(&range.min, 2)
+        };
+        let penalty = self.recommend(&range, &eps, |penalty| Method::Penalty { penalty });
+        let augmentation =
+            self.is_above_floor.then(|| self.recommend_augmentation(eps, every_penalty_suffices));
         [penalty, augmentation.flatten()].into_iter().flatten().collect()
     }
 
-    fn penalties(&self) -> Option<Limits> {
+    /// Returns the penalties for which the penalty method meets the tolerance, if there are any.
+    fn penalty_range(&self) -> Option<PenaltyRange> {
         match &self.arithmetic {
-            Arithmetic::Exact => Some(Limits::exact(&self.numbers, &self.tol)),
-            Arithmetic::Rounded(laws) => laws.penalties(&self.tol),
-            Arithmetic::Free => Some(Limits { from: Exact::zero(), to: None }),
+            Arithmetic::Exact => {
+                Some(PenaltyRange::without_rounding(&self.exact_system, &self.exact_tolerance))
+            }
+            Arithmetic::Rounded(laws) => laws.penalty_range(&self.exact_tolerance),
+            Arithmetic::Separated => Some(PenaltyRange { min: Exact::zero(), max: None }),
         }
     }
 
     /// Returns the augmentation with the largest penalty that preserves the digits of the multiplier, but not
-    /// larger than one that needs no augmentation. If it is too small, returns that with the smallest
-    /// sufficient penalty.
-    fn augmentation(&self, none_needed: Exact, any_will_do: bool) -> Option<Recommendation<T>> {
-        let to = match &self.arithmetic {
-            Arithmetic::Rounded(laws) => laws.hardest_augmentation(&self.tol),
-            Arithmetic::Exact | Arithmetic::Free => None,
+    /// larger than `direct_eps`, which needs no augmentation. If it is too small, returns that with the
+    /// smallest sufficient penalty.
+    fn recommend_augmentation(
+        &self,
+        direct_eps: Exact,
+        every_penalty_suffices: bool,
+    ) -> Option<Recommendation<T>> {
+        let max = match &self.arithmetic {
+            Arithmetic::Rounded(laws) => laws.max_penalty_for_multiplier(&self.exact_tolerance),
+            Arithmetic::Exact | Arithmetic::Separated => None,
         };
-        let eps = match &to {
-            Some(to) if *to > Exact::zero() => std::cmp::min(short(to, 1, Round::Down), none_needed),
-            Some(_) | None => none_needed,
+        let eps = match &max {
+            Some(max) if *max > Exact::zero() => direct_eps.min(round_to_digits(max, 1, Round::Down)),
+            Some(_) | None => direct_eps,
         };
-        let (zero, plane) = (Exact::zero(), Plane::Unilateral);
-        let from = match &self.arithmetic {
-            Arithmetic::Exact if any_will_do => zero,
-            Arithmetic::Exact => softest(&eps, |eps| count(&self.numbers, eps, &self.tol, &zero, plane).ok()),
-            Arithmetic::Rounded(laws) => {
-                softest(&eps, |eps| laws.augmentations_at_most(eps, &self.tol).ok()?)
-            }
+        let min = match &self.arithmetic {
+            Arithmetic::Exact if every_penalty_suffices => Exact::zero(),
+            Arithmetic::Exact => min_penalty_within_limit(&eps, |eps| self.exact_count(eps)),
+            Arithmetic::Rounded(laws) => min_penalty_within_limit(&eps, |eps| {
+                laws.max_augmentations(eps, &self.exact_tolerance).ok()?
+            }),
             // With a smaller penalty rounding near grazing could turn separation into contact.
-            Arithmetic::Free => self.numbers.c.clone(),
+            Arithmetic::Separated => self.exact_system.c.clone(),
         };
-        let eps = std::cmp::max(eps, short(&from, 2, Round::Up));
-        self.choice(&Limits { from, to }, &eps, |penalty| {
-            let (tolerance, max_augmentations) = (self.tolerance.clone(), MAX_AUGMENTATIONS);
-            Method::Augmented { penalty, tolerance, max_augmentations, start: T::zero() }
+        let eps = eps.max(round_to_digits(&min, 2, Round::Up));
+        self.recommend(&PenaltyRange { min, max }, &eps, |penalty| Method::Augmented {
+            penalty,
+            tolerance: self.tolerance.clone(),
+            max_augmentations: MAX_AUGMENTATIONS,
+            start: T::zero(),
         })
     }
 
+    /// Returns the number of augmentations in exact arithmetic, unless it has too many digits.
+    fn exact_count(&self, eps: &Exact) -> Option<Integer> {
+        count(&self.exact_system, eps, &self.exact_tolerance, &Exact::zero(), Plane::Unilateral).ok()
+    }
+
     /// Returns the recommendation for this penalty, with its range, if the method meets the tolerance.
-    fn choice(
+    fn recommend(
         &self,
-        limits: &Limits,
+        range: &PenaltyRange,
         eps: &Exact,
         method: impl Fn(T) -> Method<T>,
     ) -> Option<Recommendation<T>> {
         // Rounded to nearest, unless the result is too small.
         let nearest = self.tolerance.round_from_exact(eps).ok()?;
-        let eps = if exact(&nearest) > limits.from { nearest } else { self.directed(eps, true).ok()? };
-        let choice = self.tried(method(eps.clone()))?;
+        let eps = if exact(&nearest) > range.min { nearest } else { self.round(eps, Round::Up)? };
+        let recommendation = self.run(method(eps.clone()))?;
         // A count replaces the run in rationals, whose length would grow.
-        let counted = matches!(self.arithmetic, Arithmetic::Exact) && choice.augmentations.is_some();
-        let reaches = |eps: &T| counted || self.tried(method(eps.clone())).is_some();
-        // Rounded inwards; if it does not fit, or underflow or overflow invalidates the law, the bound is ε
-        // itself.
-        let end = |x: &Exact, up: bool| {
-            let end = self.directed(x, up).ok().filter(|end| if up { *end < eps } else { *end > eps });
-            end.filter(reaches).unwrap_or_else(|| eps.clone())
-        };
+        let is_exact = matches!(self.arithmetic, Arithmetic::Exact);
+        let is_counted = is_exact && recommendation.augmentations.is_some();
+        let meets_tolerance = |eps: &T| is_counted || self.run(method(eps.clone())).is_some();
         // A rational penalty at the limit of the penalty method is not sufficient yet.
-        let at_limit = matches!(self.arithmetic, Arithmetic::Exact) && !counted;
-        let least = if at_limit { &digits_above(&limits.from, 3) } else { &limits.from };
-        let from = (!limits.from.is_zero()).then(|| end(least, true));
-        Some(Recommendation { penalty_range: [from, limits.to.as_ref().map(|to| end(to, false))], ..choice })
+        let is_limit_excluded = is_exact && !is_counted;
+        let min = if is_limit_excluded { &next_above(&range.min, 3) } else { &range.min };
+        let min = (!range.min.is_zero()).then(|| self.confirmed_limit(min, Round::Up, &eps, meets_tolerance));
+        let max = range.max.as_ref().map(|max| self.confirmed_limit(max, Round::Down, &eps, meets_tolerance));
+        Some(Recommendation { penalty_range: [min, max], ..recommendation })
     }
 
-    /// Rounds into the scalar, up or down.
-    fn directed(&self, x: &Exact, up: bool) -> Result<T, RangeError> {
-        let (nearest, ordering) = self.tolerance.round_from_exact_with_ordering(x)?;
+    /// Returns a limit of the range of ε, rounded inwards; or ε itself if the result is not beyond ε, or if the
+    /// method does not meet the tolerance there, because underflow or overflow invalidates the law.
+    fn confirmed_limit(
+        &self,
+        limit: &Exact,
+        inwards: Round,
+        eps: &T,
+        meets_tolerance: impl Fn(&T) -> bool,
+    ) -> T {
+        let rounded = self.round(limit, inwards);
+        rounded
+            .filter(|end| if inwards == Round::Up { end < eps } else { end > eps })
+            .filter(meets_tolerance)
+            .unwrap_or_else(|| eps.clone())
+    }
+
+    /// Rounds into the scalar, up or down; returns `None` out of its range.
+    fn round(&self, x: &Exact, direction: Round) -> Option<T> {
+        let (nearest, ordering) = self.tolerance.round_from_exact_with_ordering(x).ok()?;
         let [below, above] = nearest.neighbours();
-        Ok(match (up, ordering) {
-            (true, std::cmp::Ordering::Less) => above,
-            (false, std::cmp::Ordering::Greater) => below,
+        Some(match (direction, ordering) {
+            (Round::Up, Ordering::Less) => above,
+            (Round::Down, Ordering::Greater) => below,
             _ => nearest,
         })
     }
 
     /// Runs a method and returns its recommendation if it meets the tolerance.
-    fn tried(&self, method: Method<T>) -> Option<Recommendation<T>> {
+    fn run(&self, method: Method<T>) -> Option<Recommendation<T>> {
         let solution = solve(self.system, &method).ok()?;
-        self.reached(method, &solution)
+        self.assess(method, &solution)
     }
 
-    /// Returns the recommendation for a solution that has been computed.
-    fn reached(&self, method: Method<T>, solution: &Solution<T>) -> Option<Recommendation<T>> {
+    /// Returns the recommendation of a method for its solution if it meets the tolerance.
+    fn assess(&self, method: Method<T>, solution: &Solution<T>) -> Option<Recommendation<T>> {
         let (u, n) = (exact(&solution.deflection), exact(&solution.contact_force));
-        let reaches = match solution.outcome {
-            Outcome::Direct => (&u - &self.answer).abs() < self.tol,
+        let meets_tolerance = match solution.outcome {
+            Outcome::Direct => (&u - &self.exact_deflection).abs() < self.exact_tolerance,
             outcome => outcome == Outcome::Converged,
         };
-        let force = contact::contact_force(&self.numbers);
+        let force = contact::contact_force(&self.exact_system);
         let force_error = (n - &force).abs();
-        reaches.then(|| Recommendation {
+        meets_tolerance.then(|| Recommendation {
             method,
             penalty_range: [None, None],
             augmentations: solution.augmentations,
-            penetration: contact::penetration(&self.numbers, &u),
+            penetration: contact::penetration(&self.exact_system, &u),
             relative_force_error: (!force.is_zero()).then(|| &force_error / force),
             force_error,
         })
@@ -288,7 +331,7 @@ mod tests {
             (*eps >= half).then(|| Integer::from(MAX_AUGMENTATIONS) + more)
         };
         for from in ["1e-99", "1/3", "0.999", "1", "1.001", "1.3", "2", "7", "1e99"] {
-            let found = softest(&from.parse().unwrap(), needed);
+            let found = min_penalty_within_limit(&from.parse().unwrap(), needed);
             assert!(one <= found && found < &one + &one / Exact::from(100), "{found} from {from}");
         }
     }

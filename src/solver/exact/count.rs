@@ -1,12 +1,13 @@
 //! Exact number of augmentations for a tolerance: (1.33) solved for k.
 
-use super::{Plane, Scalar, SolveError, check, exact};
+use super::{Plane, Scalar, SolveError, exact, validate};
 use crate::chapter::{SpringMass, augmented, system};
 use crate::number::{Exact, PositivePart, ToExact};
 use num_traits::{One, Zero};
 use rug::float::Round;
-use rug::ops::Pow;
+use rug::ops::{AssignRound, Pow};
 use rug::{Float, Integer, Rational};
+use std::cmp::Ordering;
 
 /// Returns the first k at which the augmentation meets a tolerance in exact arithmetic, for the parameters as
 /// represented in their scalar; penalty ε > 0 in N/m, tolerance > 0 in m, λ₀ in N.
@@ -38,10 +39,10 @@ pub fn exact_augmentation_count<T: Scalar + ToExact>(
     start: &T,
     plane: Plane,
 ) -> Result<Integer, SolveError> {
-    check::system(system)?;
-    check::positive("penalty", eps)?;
-    check::positive("tolerance", tolerance)?;
-    check::finite_number("initial multiplier", start)?;
+    validate::system(system)?;
+    validate::positive("penalty", eps)?;
+    validate::positive("tolerance", tolerance)?;
+    validate::finite_number("initial multiplier", start)?;
     count(&system.map(exact), &exact(eps), &exact(tolerance), &exact(start), plane)
 }
 
@@ -53,16 +54,9 @@ pub(super) fn count(
     start: &Exact,
     plane: Plane,
 ) -> Result<Integer, SolveError> {
-    let zero = Exact::zero();
-    let first_below = |value: &Exact, bound: &Exact| first_below(value, bound, &(eps / &system.c));
-    // |p_k| = ρᵏ |p₀| while the plane is active.
-    let penetration_below = |start: &Exact| {
-        let p = augmented::penetration_after(system, eps, start, &Exact::one());
-        first_below(&p.abs(), tolerance)
-    };
-    let r = system::reaction(system);
+    let (zero, r) = (Exact::zero(), system::reaction(system));
     if plane == Plane::Bilateral {
-        return penetration_below(start);
+        return count_while_active(system, eps, tolerance, start);
     }
     if *start <= zero && &system.c * start + eps * &r < zero {
         // The first step is separated and sets λ to 0, unless it is within the tolerance already.
@@ -71,16 +65,28 @@ pub(super) fn count(
         } else if r < zero {
             Integer::from(1)
         } else {
-            penetration_below(&zero)? + 1
+            count_while_active(system, eps, tolerance, &zero)? + 1
         });
     }
+    let while_active = count_while_active(system, eps, tolerance, start)?;
     if r >= zero {
-        return penetration_below(start);
+        return Ok(while_active);
     }
     // Separated with λ₀ > 0: r_k is p_k until λ would become negative, and −λ_k/ε afterwards. Both are
     // negative and r_k is the larger one, so the first of the two within the tolerance counts.
-    let multiplier_below = first_below(&(start - &r), &(eps * tolerance - &r))?;
-    Ok(penetration_below(start)?.min(multiplier_below))
+    let after_release = first_below(&(start - &r), &(eps * tolerance - &r), &(eps / &system.c))?;
+    Ok(while_active.min(after_release))
+}
+
+/// Returns the smallest k with |p_k| = ρᵏ |p₀| < tol, the residual while the plane is active.
+fn count_while_active(
+    system: &SpringMass<Exact>,
+    eps: &Exact,
+    tolerance: &Exact,
+    start: &Exact,
+) -> Result<Integer, SolveError> {
+    let p = augmented::penetration_after(system, eps, start, &Exact::one());
+    first_below(&p.abs(), tolerance, &(eps / &system.c))
 }
 
 /// Largest precision of logarithms in bits, which takes seconds.
@@ -94,30 +100,40 @@ fn first_below(value: &Exact, bound: &Exact, x: &Exact) -> Result<Integer, Solve
     let ratio = value / bound;
     let (ratio, x) = (ratio.as_rational(), x.as_rational());
     let growth = Rational::from(x + 1);
-    // n = ⌊ln ratio / ln(1 + x)⌋ is the largest power that does not exceed the ratio.
+    // ⌊ln ratio / ln(1 + x)⌋ is the largest power that does not exceed the ratio.
     let mut precision = 64;
     loop {
-        let logarithms = |round: Round| {
-            let ratio = Float::with_val_round(precision, ratio, round).0;
-            let x = Float::with_val_round(precision, x, round).0;
-            let ln = |x: &Float| Float::with_val_round(precision, x.ln_ref(), round).0;
-            let ln_1p = |x: &Float| Float::with_val_round(precision, x.ln_1p_ref(), round).0;
-            (ln(&ratio), ln_1p(&x))
-        };
-        let ((a, b), (a_up, b_up)) = (logarithms(Round::Down), logarithms(Round::Up));
-        let floor = |x: Float| x.to_integer_round(Round::Down).map(|(n, _)| n);
-        let least = floor(Float::with_val_round(precision, &a / &b_up, Round::Down).0);
-        let most = floor(Float::with_val_round(precision, &a_up / &b, Round::Up).0);
-        if let (Some(least), Some(most)) = (least, most)
-            && (least == most || is_power(ratio, &growth, &most))
+        if let Some([lower, upper]) = enclose_floor_of_power(ratio, x, precision)
+            && (lower == upper || is_power(ratio, &growth, &upper))
         {
-            return Ok(most + 1);
+            return Ok(upper + 1);
         }
         precision *= 2;
         if precision > LONGEST {
             return Err(SolveError::TooLong { quantity: "number of augmentations", digits: LONGEST.into() });
         }
     }
+}
+
+/// Encloses ⌊ln ratio / ln(1 + x)⌋ by logarithms of this precision, rounded down and up.
+fn enclose_floor_of_power(ratio: &Rational, x: &Rational, precision: u32) -> Option<[Integer; 2]> {
+    let [(ln, ln_1p), (ln_up, ln_1p_up)] = [Round::Down, Round::Up].map(|round| {
+        let ratio = round_float(precision, ratio, round);
+        let x = round_float(precision, x, round);
+        (round_float(precision, ratio.ln_ref(), round), round_float(precision, x.ln_1p_ref(), round))
+    });
+    let lower = round_float(precision, &ln / &ln_1p_up, Round::Down);
+    let upper = round_float(precision, &ln_up / &ln_1p, Round::Up);
+    let [(lower, _), (upper, _)] =
+        [lower.to_integer_round(Round::Down)?, upper.to_integer_round(Round::Down)?];
+    Some([lower, upper])
+}
+
+fn round_float<X>(precision: u32, x: X, round: Round) -> Float
+where
+    Float: AssignRound<X, Round = Round, Ordering = Ordering>,
+{
+    Float::with_val_round(precision, x, round).0
 }
 
 /// Returns `true` if ratio = growthⁿ. The logarithms cannot decide this case; neither side is longer than the

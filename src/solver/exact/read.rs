@@ -1,6 +1,6 @@
 //! Parsing of a system.
 
-use super::check::{self, SolveError};
+use super::{SolveError, validate};
 use crate::chapter::SpringMass;
 use crate::number::{Exact, ParseError};
 
@@ -41,13 +41,12 @@ impl<S: AsRef<str>> SpringMass<S> {
     /// # Ok::<(), spring_mass_contact::solver::ReadError>(())
     /// ```
     pub fn parse(&self) -> Result<SpringMass<Exact>, ReadError> {
-        let number = |argument, text: &S| {
-            let text = text.as_ref();
-            let refused = |reason| ReadError::NotANumber { argument, value: text.to_string(), reason };
-            text.parse::<Exact>().map_err(refused)
-        };
-        let parsed = SpringMass::NAMES.zip(self.as_ref()).try_map(|(name, text)| number(name, text))?;
-        check::system(&parsed)?;
+        let parsed = SpringMass::NAMES.zip(self.as_ref()).try_map(|(argument, text)| {
+            let value = text.as_ref();
+            let number = value.parse::<Exact>();
+            number.map_err(|reason| ReadError::NotANumber { argument, value: value.to_string(), reason })
+        })?;
+        validate::system(&parsed)?;
         Ok(parsed)
     }
 }

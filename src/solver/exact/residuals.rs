@@ -1,6 +1,6 @@
 //! Exact residuals of a solution.
 
-use super::{check, exact};
+use super::{exact, validate};
 use crate::chapter::{SpringMass, contact};
 use crate::number::{Exact, ToExact};
 use crate::solver::{Scalar, Solution, SolveError};
@@ -24,9 +24,9 @@ impl<T: Scalar + ToExact> Solution<T> {
     /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
     /// ```
     pub fn certificate(&self, system: &SpringMass<T>) -> Result<contact::Kkt<Exact>, SolveError> {
-        check::system(system)?;
-        check::finite_number("deflection", &self.deflection)?;
-        check::finite_number("contact force", &self.contact_force)?;
+        validate::system(system)?;
+        validate::finite_number("deflection", &self.deflection)?;
+        validate::finite_number("contact force", &self.contact_force)?;
         Ok(contact::kkt(&system.map(exact), &exact(&self.deflection), &exact(&self.contact_force)))
     }
 }

@@ -1,8 +1,7 @@
 //! Equilibrium of a penalty functional with higher terms (1.10), to the last bit.
 
-use super::check::{self, SolveError};
 use super::root::{Equation, RootBracket};
-use super::{Scalar, State};
+use super::{Scalar, SolveError, State, validate};
 use crate::chapter::{SpringMass, penalty, system};
 use crate::number::{Ball, Dual, Exact, Mpfr, PositivePart, Real, ToExact};
 use num_traits::Zero;
@@ -32,53 +31,62 @@ where
     T: Scalar + Real + ToExact,
 {
     let state = State::of(system)?;
-    check::coefficient("penalty", eps)?;
-    higher.iter().try_for_each(|e| check::coefficient("higher penalty", e))?;
-    check::any_positive(std::iter::once(eps).chain(higher))?;
-    let out_of_range = SolveError::OutOfRange { quantity: "penetration" };
+    validate_coefficient("penalty", eps)?;
+    higher.iter().try_for_each(|coefficient| validate_coefficient("higher penalty", coefficient))?;
+    let is_positive = *eps > T::zero() || higher.iter().any(|coefficient| *coefficient > T::zero());
+    let allowed = "greater than 0, at least one of them";
+    validate::require(is_positive, "penalties", &T::zero(), allowed)?;
     if state == State::Grazing {
         return Ok(T::zero());
     }
     // Defines the precision of the result; it is the root without the higher terms.
     let like = penalty::penetration(system, eps);
-    let rounds = !like.unit_roundoff().is_zero(); // constants of MPFR do not
-    check::require(rounds, "system", system, "rounded to some precision")?;
-    let exact = |x: &T| x.to_exact().map_err(|_| out_of_range.clone());
+    let is_rounded = !like.unit_roundoff().is_zero(); // constants of MPFR are not
+    validate::require(is_rounded, "system", system, "rounded to some precision")?;
     let SpringMass { c, m, g, l, h } = system.try_map(exact)?;
     let reaction = system::reaction(&SpringMass { c: c.clone(), m, g, l, h });
     let (eps, higher) = (exact(eps)?, higher.iter().map(exact).collect::<Result<Vec<_>, _>>()?);
-    let digits = exact(&like.unit_roundoff())?.as_rational().denom().significant_bits();
-    let found = enclosed(digits, &c, &reaction.abs(), &eps, &higher).ok_or(out_of_range.clone())?;
-    let end = |p: Mpfr| p.to_exact().map_err(|_| out_of_range.clone());
-    let (lower, upper) = (end(found.lower)?, end(found.upper)?);
+    let bits = exact(&like.unit_roundoff())?.as_rational().denom().significant_bits();
+    let bracket = enclose_root(bits, &c, &reaction.abs(), &eps, &higher).ok_or(OUT_OF_RANGE)?;
+    let (lower, upper) = (exact(&bracket.lower)?, exact(&bracket.upper)?);
     let middle = (&lower + &upper) / Exact::from(2);
     // For R ≠ 0 it is not a root, and the neighbours of 0 in MPFR have a billion digits.
-    check::in_range(!middle.is_zero(), "penetration")?;
-    let answer = like.round_from_exact(&middle).map_err(|_| out_of_range.clone())?;
+    validate::in_range(!middle.is_zero(), "penetration")?;
+    let root = like.round_from_exact(&middle).map_err(|_| OUT_OF_RANGE)?;
     // Beyond the largest float there is neither a neighbour nor a root.
-    let below = Real::next_down(answer.clone()).to_exact().is_ok_and(|p| lower <= p);
-    let above = Real::next_up(answer.clone()).to_exact().is_ok_and(|p| p <= upper);
-    check::in_range([below, above] == [false; 2], "penetration")?;
-    Ok(if state == State::Separated { -answer } else { answer })
+    let contains_below = Real::next_down(root.clone()).to_exact().is_ok_and(|below| lower <= below);
+    let contains_above = Real::next_up(root.clone()).to_exact().is_ok_and(|above| above <= upper);
+    validate::in_range(!contains_below && !contains_above, "penetration")?;
+    Ok(if state == State::Separated { -root } else { root })
 }
 
-/// Encloses the root for R > 0 with a given number of digits and a margin: all terms are positive, so its
+const OUT_OF_RANGE: SolveError = SolveError::OutOfRange { quantity: "penetration" };
+
+fn exact<T: ToExact>(x: &T) -> Result<Exact, SolveError> {
+    x.to_exact().map_err(|_| OUT_OF_RANGE)
+}
+
+fn validate_coefficient<T: Scalar>(argument: &'static str, value: &T) -> Result<(), SolveError> {
+    validate::require(value.is_finite() && *value >= T::zero(), argument, value, "at least 0 and finite")
+}
+
+/// Encloses the root for R > 0 with a given number of bits and a margin: all terms are positive, so its
 /// relative error is not larger than theirs.
-fn enclosed(
-    digits: u32,
+fn enclose_root(
+    bits: u32,
     c: &Exact,
     reaction: &Exact,
     eps: &Exact,
     higher: &[Exact],
 ) -> Option<RootBracket<Mpfr>> {
     // Not `to_mpfr`, because the root of a scalar with the largest precision needs more.
-    let like = Mpfr::from(Float::with_val(digits + 64, 1));
-    let around = |x: &Exact| Ball::enclosing(&like, x);
-    let constant = |x: &Exact| around(x).map(Dual::constant);
-    let (eps, higher) =
-        (constant(eps).ok()?, higher.iter().map(constant).collect::<Result<Vec<_>, _>>().ok()?);
+    let like = Mpfr::from(Float::with_val(bits + 64, 1));
+    let [c, reaction, eps] = [c, reaction, eps].map(|x| Ball::enclosing(&like, x).ok());
+    let eps = Dual::constant(eps?);
+    let higher = higher.iter().map(|x| Ball::enclosing(&like, x).map(Dual::constant));
+    let higher = higher.collect::<Result<Vec<_>, _>>().ok()?;
     let functional = |p: &Dual<_>| penalty::series(&eps, &higher, p);
-    let equation = Equation::new(around(c).ok()?, around(reaction).ok()?, &functional);
+    let equation = Equation::new(c?, reaction?, &functional);
     let most: Mpfr = equation.most().ok()?;
     equation.root(&most, &Mpfr::zero()).ok()
 }

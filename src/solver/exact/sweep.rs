@@ -1,7 +1,7 @@
 //! The penalty method for a range of penalties, and the best penalty for a computed force ε p.
 
-use super::check::{self, SolveError};
-use super::{Method, Scalar, State, exact, solve};
+use super::guarantees::validate_unit_roundoff;
+use super::{Method, Scalar, SolveError, State, exact, solve, validate};
 use crate::chapter::{SpringMass, augmented, penalty, rounding, system};
 use crate::number::{Exact, PositivePart, ToExact};
 use num_traits::{One, Zero};
@@ -61,21 +61,22 @@ pub fn sweep<T: Scalar + ToExact>(
     penalties: impl IntoIterator<Item = T>,
 ) -> impl Iterator<Item = Result<SweepRow<T>, SolveError>> {
     let mut penalties = penalties.into_iter().peekable();
-    let none: [&T; 0] = [];
-    let none = check::require(penalties.peek().is_some(), "penalties", &none, "nonempty").err();
-    none.map(Err).into_iter().chain(penalties.map(|eps| row(system, eps)))
+    let listed: [&T; 0] = [];
+    let error = validate::require(penalties.peek().is_some(), "penalties", &listed, "nonempty").err();
+    error.map(Err).into_iter().chain(penalties.map(|eps| row(system, eps)))
 }
 
 fn row<T: Scalar + ToExact>(system: &SpringMass<T>, eps: T) -> Result<SweepRow<T>, SolveError> {
     let solution = solve(system, &Method::Penalty { penalty: eps.clone() })?;
     let touches = solution.state != State::Separated;
     let force = touches.then(|| penalty::contact_force(system, &eps, &solution.deflection));
-    check::in_range(force.as_ref().is_none_or(T::is_finite), "penalty force")?;
+    validate::in_range(force.as_ref().is_none_or(T::is_finite), "penalty force")?;
     let reaction = (solution.state == State::Contact).then(|| system::reaction(&system.map(exact)));
-    let error = |force: &T| reaction.as_ref().map(|r| (exact(force) - r).abs() / r);
+    let [force_error, penalty_force_error] = [Some(&solution.contact_force), force.as_ref()]
+        .map(|force| reaction.as_ref().zip(force).map(|(r, force)| (exact(force) - r).abs() / r));
     Ok(SweepRow {
-        force_error: error(&solution.contact_force),
-        penalty_force_error: force.as_ref().and_then(error),
+        force_error,
+        penalty_force_error,
         penalty: eps,
         deflection: solution.deflection,
         penetration: solution.penetration,
@@ -108,7 +109,7 @@ pub fn best_penalty<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     unit_roundoff: &Exact,
 ) -> Result<Option<T>, SolveError> {
-    check::unit_roundoff(unit_roundoff)?;
+    validate_unit_roundoff(unit_roundoff)?;
     if State::of(system)? != State::Contact || unit_roundoff.is_zero() {
         return Ok(None);
     }
@@ -150,9 +151,9 @@ pub fn penalty_force_bound<T: Scalar + ToExact>(
     eps: &T,
     unit_roundoff: &Exact,
 ) -> Result<Option<Exact>, SolveError> {
-    check::system(system)?;
-    check::positive("penalty", eps)?;
-    check::unit_roundoff(unit_roundoff)?;
+    validate::system(system)?;
+    validate::positive("penalty", eps)?;
+    validate_unit_roundoff(unit_roundoff)?;
     let (s, eps) = (system.map(exact), exact(eps));
     let (r, short) = (system::reaction(&s), augmented::contraction(&s, &eps));
     if r <= Exact::zero() {
@@ -189,9 +190,14 @@ const MOST_DIGITS: usize = 100;
 /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
 pub fn penalties(from: &Exact, to: &Exact, points: u32) -> Result<Vec<Exact>, SolveError> {
-    check::require(*from > Exact::zero(), "first penalty", from, "greater than 0")?;
-    check::require(from < to, "last penalty", to, "greater than the first")?;
-    check::require((2..=MOST_POINTS).contains(&points), "number of penalties", &points, "from 2 to 1000000")?;
+    validate::require(*from > Exact::zero(), "first penalty", from, "greater than 0")?;
+    validate::require(from < to, "last penalty", to, "greater than the first")?;
+    validate::require(
+        (2..=MOST_POINTS).contains(&points),
+        "number of penalties",
+        &points,
+        "from 2 to 1000000",
+    )?;
     let spaced = (3..=MOST_DIGITS).map(|digits| spaced(from, to, points, digits));
     let mut distinct = spaced.filter(|list| list.windows(2).all(|pair| pair[0] < pair[1]));
     let further = "further from the first, or there must be fewer between them";
@@ -205,8 +211,7 @@ pub fn penalties(from: &Exact, to: &Exact, points: u32) -> Result<Vec<Exact>, So
 fn spaced(from: &Exact, to: &Exact, points: u32, digits: usize) -> Vec<Exact> {
     // Four bits hold a decimal digit; the rest is a margin for the logarithms of large numbers.
     let bits = 4 * digits as u32 + 128;
-    let ln = |x: &Exact| Float::with_val(bits, x.as_rational()).ln();
-    let (first, last) = (ln(from), ln(to));
+    let [first, last] = [from, to].map(|x| Float::with_val(bits, x.as_rational()).ln());
     let step = Float::with_val(bits, &last - &first) / (points - 1);
     let between = (1..points - 1).map(|i| {
         let x = (Float::with_val(bits, &step * i) + &first).exp();

@@ -47,7 +47,7 @@ by_ball! {
         let rational = x.value().precision().is_none().then(|| x.value().to_exact().ok()).flatten();
         rational.is_none_or(|x| can_be_written(&x, k)).then(|| power(x, k))
     },
-    fn growing_digits(&self) -> u64 {
+    fn variable_bit_length(&self) -> u64 {
         // A constant is a rational.
         let constant = self.precision().is_none().then(|| self.to_exact().ok()).flatten();
         constant.map_or(0, |x| x.bit_length())
@@ -74,7 +74,7 @@ impl Scalar for Exact {
     fn is_finite(&self) -> bool {
         true
     }
-    fn growing_digits(&self) -> u64 {
+    fn variable_bit_length(&self) -> u64 {
         self.bit_length()
     }
     fn sign_of_sum(plus: [(&Self, &Self); 2], minus: (&Self, &Self)) -> Ordering {
@@ -90,8 +90,8 @@ mod tests {
     fn only_rationals_and_constants_grow() {
         let third = rug::Rational::from((1, 3));
         let float = rug::Float::with_val(64, &third);
-        assert_eq!(Exact::from(third.clone()).growing_digits(), 3);
-        assert_eq!(Mpfr::constant(third).growing_digits(), 3);
-        assert_eq!([Mpfr::from(float).growing_digits(), 1.5_f64.growing_digits()], [0; 2]);
+        assert_eq!(Exact::from(third.clone()).variable_bit_length(), 3);
+        assert_eq!(Mpfr::constant(third).variable_bit_length(), 3);
+        assert_eq!([Mpfr::from(float).variable_bit_length(), 1.5_f64.variable_bit_length()], [0; 2]);
     }
 }
