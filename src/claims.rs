@@ -39,6 +39,7 @@ mod prelude {
     pub(super) use super::rounding::eta;
     pub(super) use super::{Case, Entry, Hypotheses, hypotheses, symbols};
     pub(super) use crate::formula::Rate::{Equal, Within};
+    pub(super) use crate::formula::Statement;
     use crate::formula::claim;
     pub(super) use crate::formula::claim::{
         derivative, equal, geometric_limit, induction, limit, non_negative, perturbed_recursion, positive,

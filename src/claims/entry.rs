@@ -104,9 +104,10 @@ impl Entry {
     }
 
     /// Adds claims, which inherit the hypotheses unless they [replace](Statement::only_assuming) them.
-    pub(super) fn claims<const N: usize>(self, claims: [Statement; N]) -> Self {
-        let claims = claims.map(|claim| claim.inheriting(self.equation, &self.hypotheses));
-        Entry { claims: claims.into(), ..self }
+    pub(super) fn claims(mut self, claims: impl IntoIterator<Item = Statement>) -> Self {
+        let inheriting = claims.into_iter().map(|claim| claim.inheriting(self.equation, &self.hypotheses));
+        self.claims.extend(inheriting);
+        self
     }
 }
 

@@ -69,14 +69,14 @@ hypotheses! {
     quartic "ε₄ ≥ 0" = non_negative(eps4);
     softening "ε < 0" = positive(-eps);
     penalty_below_minus_two_c "ε < −2 c" = positive(-eps - Tree::from(2) * &s.c);
-    within_twice "ε + 2 c > 0" = positive(eps + Tree::from(2) * &s.c), solved for &s.c;
-    twice "ε + 2 c = 0" = zero(eps + Tree::from(2) * &s.c);
+    penalty_above_minus_two_c "ε + 2 c > 0" = positive(eps + Tree::from(2) * &s.c), solved for &s.c;
+    penalty_of_minus_two_c "ε + 2 c = 0" = zero(eps + Tree::from(2) * &s.c);
     contact "R > 0" = positive(system::reaction(s)), solved for &s.g;
     in_contact "R ≥ 0" = non_negative(system::reaction(s)), solved for &s.g;
     grazing "R = 0" = zero(system::reaction(s)), solved for &s.g;
     separated "R < 0" = positive(-system::reaction(s)), solved for &s.g;
     zero_total_stiffness "c + ε = 0" = zero(penalty::total_stiffness(s, eps)), solved for eps;
-    beyond_once "c + ε < 0" = positive(-penalty::total_stiffness(s, eps)), solved for eps;
+    penalty_below_minus_c "c + ε < 0" = positive(-penalty::total_stiffness(s, eps)), solved for eps;
     penetrating "p > 0" = positive(contact::penetration(s, u)), solved for u;
     gap_open "p < 0" = positive(-contact::penetration(s, u)), solved for u;
     tolerance "tol > 0" = positive(tol);
@@ -127,7 +127,7 @@ hypotheses! {
         augmented::deflection(s, eps, member()),
         iterate_error(s, eps)
     );
-    near_printed "|v − (m g − x₁ + ε (H − l)) / (c + ε)| ≤ η (5 |Δ| + 5 R / (c + ε)) + F" = Hypothesis::near(
+    near_bilateral_iterate "|v − (m g − x₁ + ε (H − l)) / (c + ε)| ≤ η (5 |Δ| + 5 R / (c + ε)) + F" = Hypothesis::near(
         v, augmented::deflection(s, eps, member()), iterate_error(s, eps)
     );
     pushes "x₁ ≥ 0" = non_negative(member());

@@ -28,240 +28,230 @@ formulas! {
 
 /// Returns the entries.
 pub(super) fn entries() -> Vec<Entry> {
-    let Case { system: s, u, eps, eps4, tol, .. } = symbols();
-    let Hypotheses {
-        stiffness,
-        penalty,
-        quartic,
-        contact,
-        in_contact,
-        separated,
-        penetrating,
-        tolerance,
-        sufficient_penalty,
-        within_tolerance,
-        near_penalty,
-        some_bits,
-        ..
-    } = hypotheses();
-    let zero = &int(0);
+    vec![eq_1_9(), eq_1_10(), eq_1_11(), eq_1_12(), figure_1_2(), eq_1_13(), remark_1_3_2()]
+}
+
+fn eq_1_9() -> Entry {
+    let Case { system: s, u, eps, .. } = symbols();
+    let Hypotheses { stiffness, penalty, .. } = hypotheses();
+    Entry::new("1.9", "Penalised energy")
+        .states("Π_p(u) = «penalty::energy»")
+        .in_latex(r"\Pi_p(u) = «penalty::energy»")
+        .assuming([stiffness, penalty])
+        .functions(["penalty::energy", "penalty::functional", "penalty::least_energy"])
+        .follows_from(["1.4", "1.5"])
+        .claims([
+            equal("least", energy(s, eps, &deflection(s, eps)), least_energy(s, eps)),
+            equal(
+                "excess",
+                energy(s, eps, u) - least_energy(s, eps),
+                half(total_stiffness(s, eps) * square(u - deflection(s, eps))),
+            ),
+        ])
+}
+
+fn eq_1_10() -> Entry {
+    let Case { system: s, u, eps, eps4, .. } = symbols();
+    let Hypotheses { stiffness, penalty, quartic, penetrating, .. } = hypotheses();
     let quartic_term = std::slice::from_ref(eps4);
-    vec![
-        Entry::new("1.9", "Penalised energy")
-            .states("Π_p(u) = «penalty::energy»")
-            .in_latex(r"\Pi_p(u) = «penalty::energy»")
-            .assuming([stiffness, penalty])
-            .functions(["penalty::energy", "penalty::functional", "penalty::least_energy"])
-            .follows_from(["1.4", "1.5"])
-            .claims([
-                equal("least", energy(s, eps, &deflection(s, eps)), least_energy(s, eps)),
-                equal(
-                    "excess",
-                    energy(s, eps, u) - least_energy(s, eps),
-                    half(total_stiffness(s, eps) * square(u - deflection(s, eps))),
-                ),
-            ]),
-        Entry::new("1.10", "Penalty functional with many terms")
-            .states("W = «penalty::series» satisfies the conditions on a penalty functional")
-            .in_latex(r"W_\varepsilon(p) = «penalty::series»")
-            .assuming([penalty, quartic])
-            .functions(["penalty::series", "penalty::series_force", "penalty::series_residual"])
-            .follows_from(["1.9"])
-            .claims([
-                equal("vanishes-at-contact", series(eps, quartic_term, zero), 0).only_assuming([]),
-                positive("positive", series(eps, quartic_term, &contact::penetration(s, u)))
-                    .assuming([penetrating]),
-                positive("increasing", series_force(eps, quartic_term, &contact::penetration(s, u)))
-                    .assuming([penetrating]),
-                derivative("unbounded", series(eps, quartic_term, u), eps, half(u * u)).only_assuming([]),
-                equal("one-term", series(eps, &[], u), functional(eps, u)).only_assuming([]),
-                equal("force", series_force(eps, quartic_term, u), eps * u + int(4) * eps4 * u * u * u)
-                    .only_assuming([]),
-                derivative("slope", series(eps, quartic_term, u), u, series_force(eps, quartic_term, u))
-                    .only_assuming([]),
-                {
-                    let f = |p: &Tree| series_residual(s, eps, quartic_term, p);
-                    equal("odd", f(u) + f(&-u), -(int(2) * reaction(s))).only_assuming([])
-                },
-                derivative(
-                    "stiffens",
-                    series_residual(s, eps, quartic_term, u),
-                    u,
-                    total_stiffness(s, eps) + int(12) * eps4 * u * u,
-                )
+    let f = |p: &Tree| series_residual(s, eps, quartic_term, p);
+    let dual = symbols().with_dual_variable(u);
+    Entry::new("1.10", "Penalty functional with many terms")
+        .states("W = «penalty::series» satisfies the conditions on a penalty functional")
+        .in_latex(r"W_\varepsilon(p) = «penalty::series»")
+        .assuming([penalty, quartic])
+        .functions(["penalty::series", "penalty::series_force", "penalty::series_residual"])
+        .follows_from(["1.9"])
+        .claims([
+            equal("vanishes-at-contact", series(eps, quartic_term, &int(0)), 0).only_assuming([]),
+            positive("positive", series(eps, quartic_term, &contact::penetration(s, u)))
+                .assuming([penetrating]),
+            positive("increasing", series_force(eps, quartic_term, &contact::penetration(s, u)))
+                .assuming([penetrating]),
+            derivative("unbounded", series(eps, quartic_term, u), eps, half(u * u)).only_assuming([]),
+            equal("one-term", series(eps, &[], u), functional(eps, u)).only_assuming([]),
+            equal("force", series_force(eps, quartic_term, u), eps * u + int(4) * eps4 * u * u * u)
                 .only_assuming([]),
-                {
-                    let dual = symbols().with_dual_variable(u);
-                    positive(
-                        "one-root",
-                        series_residual(&dual.system, &dual.eps, std::slice::from_ref(&dual.eps4), &dual.u)
-                            .derivative,
-                    )
-                    .only_assuming([stiffness, penalty, quartic])
-                },
-            ]),
-        Entry::new("1.11", "Equilibrium by penalty")
-            .states("«penalty::residual» = 0")
-            .in_latex(r"\frac{\partial\Pi_p}{\partial u} = «penalty::residual» = 0")
-            .functions(["penalty::residual"])
-            .follows_from(["1.9"])
-            .claims([
-                derivative("stationary", energy(s, eps, u), u, residual(s, eps, u)),
-                equal("root", residual(s, eps, &deflection(s, eps)), 0).assuming([stiffness, penalty]),
-                equal(
-                    "two-springs",
-                    residual(s, eps, u),
-                    contact::equilibrium(s, u, &contact_force(s, eps, u)),
-                ),
-            ]),
-        Entry::new("1.12", "Contact force by penalty")
-            .states(
-                "N = «penalty::contact_force», which is «penalty::contact_force_at_equilibrium» at (1.13)",
+            derivative("slope", series(eps, quartic_term, u), u, series_force(eps, quartic_term, u))
+                .only_assuming([]),
+            equal("odd", f(u) + f(&-u), -(int(2) * reaction(s))).only_assuming([]),
+            derivative(
+                "stiffens",
+                series_residual(s, eps, quartic_term, u),
+                u,
+                total_stiffness(s, eps) + int(12) * eps4 * u * u,
             )
-            .in_latex(r"N = «penalty::contact_force» = «penalty::contact_force in full»")
-            .assuming([stiffness, penalty])
-            .functions(["penalty::contact_force", "penalty::contact_force_at_equilibrium"])
-            .follows_from(["1.11"])
-            .claims([
-                equal(
-                    "at-the-root",
-                    contact_force(s, eps, &deflection(s, eps)),
-                    contact_force_at_equilibrium(s, eps),
-                ),
-                positive("pushes", contact_force_at_equilibrium(s, eps)).assuming([contact]),
-                equal(
-                    "error",
-                    reaction(s) - contact_force_at_equilibrium(s, eps),
-                    &s.c * penetration(s, eps),
-                ),
-                equal(
-                    "relative-error",
-                    reaction(s) - contact_force_at_equilibrium(s, eps),
-                    augmented::contraction(s, eps) * reaction(s),
-                ),
-                within(
-                    "precision-law",
-                    contact_force(s, eps, u).with_rounding() - contact_force_at_equilibrium(s, eps),
-                    rounding::penalty_force_error(s, eps, precision()),
-                )
-                .assuming([in_contact, near_penalty])
-                .computing(u, deflection(s, eps).with_rounding()),
-                {
-                    let lengths = s.h.abs() + int(5) * gap(s).abs();
-                    let parts = eps * lengths + int(7) * reaction(s);
-                    equal(
-                        "precision-law-in-parts",
-                        rounding::penalty_force_error(s, eps, precision()) * precision(),
-                        &parts + int(8) * eta() * &parts,
-                    )
-                    .only_assuming([some_bits])
-                },
-                // The error of the force relative to R, without the part that is independent of ε. It is
-                // smallest if the square on the right vanishes.
-                {
-                    let best = &rounding::best_compliance_squared(s, precision());
-                    let error = reaction(s) - contact_force_at_equilibrium(s, eps)
-                        + rounding::penalty_force_error(s, eps, precision());
-                    let fixed = int(7) * eta() * (int(1) + int(8) * eta()) - square(&s.c) * best;
-                    equal(
-                        "best-penalty",
-                        square(error / reaction(s) - fixed) - int(4) * square(&s.c) * best,
-                        square(augmented::contraction(s, eps) - &s.c * total_stiffness(s, eps) * best),
-                    )
-                    .assuming([contact, some_bits])
-                },
-                {
-                    let p = penetration(s, eps);
-                    equal("complementarity", &p * contact_force_at_equilibrium(s, eps), eps * &p * &p)
-                },
-            ]),
-        Entry::new("Fig. 1.2", "The penalty as a second spring")
-            .states("Two springs of stiffness c and ε act side by side.")
-            .functions(["penalty::total_stiffness"])
-            .follows_from(["1.12"])
-            .claims([
-                derivative(
-                    "force",
-                    functional(eps, &contact::penetration(s, u)),
-                    u,
-                    contact_force(s, eps, u),
-                ),
-                derivative("stiffness", residual(s, eps, u), u, total_stiffness(s, eps)),
-            ]),
-        Entry::new("1.13", "Deflection by penalty and its limit")
-            .states(
-                "u = «penalty::deflection» tends to «system::gap» as ε → ∞, \
-                 with p = «penalty::penetration»",
+            .only_assuming([]),
+            positive(
+                "one-root",
+                series_residual(&dual.system, &dual.eps, std::slice::from_ref(&dual.eps4), &dual.u)
+                    .derivative,
             )
-            .in_latex(concat!(
-                r"\begin{aligned} \lim_{\varepsilon\to\infty} u ",
-                r"&= \lim_{\varepsilon\to\infty} «penalty::deflection» \\ ",
-                r"&= \lim_{\varepsilon\to\infty} «penalty::deflection_divided» \\ ",
-                r"&= «system::gap» \end{aligned}",
-            ))
-            .assuming([stiffness, penalty])
-            .functions(["penalty::deflection", "penalty::deflection_divided"])
-            .follows_from(["1.11"])
-            .claims([
-                equal("rate", total_stiffness(s, eps) * (deflection(s, eps) - gap(s)), reaction(s)),
-                limit("limit", deflection(s, eps), eps, gap(s), Equal(reaction(s) / total_stiffness(s, eps))),
-                equal("two-forms", deflection(s, eps), deflection_divided(s, eps)),
-                within(
-                    "float-error",
-                    deflection(s, eps).with_rounding() - deflection(s, eps),
-                    rounding::deflection_error(s, eps, precision()),
-                )
-                .assuming([in_contact]),
-                {
-                    let parts = int(5) * gap(s).abs() + int(4) * penetration(s, eps);
-                    equal(
-                        "float-error-in-parts",
-                        rounding::deflection_error(s, eps, precision()) * precision(),
-                        &parts + int(2) * eta() * &parts,
-                    )
-                    .assuming([some_bits])
-                },
-                within(
-                    "float-distance",
-                    deflection(s, eps).with_rounding() - gap(s),
-                    penetration(s, eps) + rounding::deflection_error(s, eps, precision()),
-                )
-                .assuming([in_contact]),
-                derivative(
-                    "slope",
-                    contact::penetration(s, &deflection(s, eps)),
-                    eps,
-                    -reaction(s) / square(total_stiffness(s, eps)),
-                ),
-                limit(
-                    "penetration-vanishes",
-                    contact::penetration(s, &deflection(s, eps)),
-                    eps,
-                    0,
-                    Equal(penetration(s, eps)),
-                ),
-                equal("unilateral", unilateral_deflection(s, eps), deflection(s, eps)).assuming([in_contact]),
-                equal("unilateral-free", unilateral_deflection(s, eps), structure::deflection(s))
-                    .assuming([separated]),
+            .only_assuming([stiffness, penalty, quartic]),
+        ])
+}
+
+fn eq_1_11() -> Entry {
+    let Case { system: s, u, eps, .. } = symbols();
+    let Hypotheses { stiffness, penalty, .. } = hypotheses();
+    Entry::new("1.11", "Equilibrium by penalty")
+        .states("«penalty::residual» = 0")
+        .in_latex(r"\frac{\partial\Pi_p}{\partial u} = «penalty::residual» = 0")
+        .functions(["penalty::residual"])
+        .follows_from(["1.9"])
+        .claims([
+            derivative("stationary", energy(s, eps, u), u, residual(s, eps, u)),
+            equal("root", residual(s, eps, &deflection(s, eps)), 0).assuming([stiffness, penalty]),
+            equal("two-springs", residual(s, eps, u), contact::equilibrium(s, u, &contact_force(s, eps, u))),
+        ])
+}
+
+fn eq_1_12() -> Entry {
+    let Case { system: s, u, eps, .. } = symbols();
+    let Hypotheses { stiffness, penalty, contact, in_contact, near_penalty, some_bits, .. } = hypotheses();
+    let lengths = s.h.abs() + int(5) * gap(s).abs();
+    let parts = eps * lengths + int(7) * reaction(s);
+    let best = &rounding::best_compliance_squared(s, precision());
+    let error = reaction(s) - contact_force_at_equilibrium(s, eps)
+        + rounding::penalty_force_error(s, eps, precision());
+    let fixed = int(7) * eta() * (int(1) + int(8) * eta()) - square(&s.c) * best;
+    let p = penetration(s, eps);
+    Entry::new("1.12", "Contact force by penalty")
+        .states("N = «penalty::contact_force», which is «penalty::contact_force_at_equilibrium» at (1.13)")
+        .in_latex(r"N = «penalty::contact_force» = «penalty::contact_force in full»")
+        .assuming([stiffness, penalty])
+        .functions(["penalty::contact_force", "penalty::contact_force_at_equilibrium"])
+        .follows_from(["1.11"])
+        .claims([
+            equal(
+                "at-the-root",
+                contact_force(s, eps, &deflection(s, eps)),
+                contact_force_at_equilibrium(s, eps),
+            ),
+            positive("pushes", contact_force_at_equilibrium(s, eps)).assuming([contact]),
+            equal("error", reaction(s) - contact_force_at_equilibrium(s, eps), &s.c * penetration(s, eps)),
+            equal(
+                "relative-error",
+                reaction(s) - contact_force_at_equilibrium(s, eps),
+                augmented::contraction(s, eps) * reaction(s),
+            ),
+            within(
+                "precision-law",
+                contact_force(s, eps, u).with_rounding() - contact_force_at_equilibrium(s, eps),
+                rounding::penalty_force_error(s, eps, precision()),
+            )
+            .assuming([in_contact, near_penalty])
+            .computing(u, deflection(s, eps).with_rounding()),
+            equal(
+                "precision-law-in-parts",
+                rounding::penalty_force_error(s, eps, precision()) * precision(),
+                &parts + int(8) * eta() * &parts,
+            )
+            .only_assuming([some_bits]),
+            // The error of the force relative to R, without the part that is independent of ε. It is
+            // smallest if the square on the right vanishes.
+            equal(
+                "best-penalty",
+                square(error / reaction(s) - fixed) - int(4) * square(&s.c) * best,
+                square(augmented::contraction(s, eps) - &s.c * total_stiffness(s, eps) * best),
+            )
+            .assuming([contact, some_bits]),
+            equal("complementarity", &p * contact_force_at_equilibrium(s, eps), eps * &p * &p),
+        ])
+}
+
+fn figure_1_2() -> Entry {
+    let Case { system: s, u, eps, .. } = symbols();
+    Entry::new("Fig. 1.2", "The penalty as a second spring")
+        .states("Two springs of stiffness c and ε act side by side.")
+        .functions(["penalty::total_stiffness"])
+        .follows_from(["1.12"])
+        .claims([
+            derivative("force", functional(eps, &contact::penetration(s, u)), u, contact_force(s, eps, u)),
+            derivative("stiffness", residual(s, eps, u), u, total_stiffness(s, eps)),
+        ])
+}
+
+fn eq_1_13() -> Entry {
+    let Case { system: s, eps, .. } = symbols();
+    let Hypotheses { stiffness, penalty, in_contact, separated, some_bits, .. } = hypotheses();
+    let parts = int(5) * gap(s).abs() + int(4) * penetration(s, eps);
+    Entry::new("1.13", "Deflection by penalty and its limit")
+        .states(
+            "u = «penalty::deflection» tends to «system::gap» as ε → ∞, \
+             with p = «penalty::penetration»",
+        )
+        .in_latex(concat!(
+            r"\begin{aligned} \lim_{\varepsilon\to\infty} u ",
+            r"&= \lim_{\varepsilon\to\infty} «penalty::deflection» \\ ",
+            r"&= \lim_{\varepsilon\to\infty} «penalty::deflection_divided» \\ ",
+            r"&= «system::gap» \end{aligned}",
+        ))
+        .assuming([stiffness, penalty])
+        .functions(["penalty::deflection", "penalty::deflection_divided"])
+        .follows_from(["1.11"])
+        .claims([
+            equal("rate", total_stiffness(s, eps) * (deflection(s, eps) - gap(s)), reaction(s)),
+            limit("limit", deflection(s, eps), eps, gap(s), Equal(reaction(s) / total_stiffness(s, eps))),
+            equal("two-forms", deflection(s, eps), deflection_divided(s, eps)),
+            within(
+                "float-error",
+                deflection(s, eps).with_rounding() - deflection(s, eps),
+                rounding::deflection_error(s, eps, precision()),
+            )
+            .assuming([in_contact]),
+            equal(
+                "float-error-in-parts",
+                rounding::deflection_error(s, eps, precision()) * precision(),
+                &parts + int(2) * eta() * &parts,
+            )
+            .assuming([some_bits]),
+            within(
+                "float-distance",
+                deflection(s, eps).with_rounding() - gap(s),
+                penetration(s, eps) + rounding::deflection_error(s, eps, precision()),
+            )
+            .assuming([in_contact]),
+            derivative(
+                "slope",
+                contact::penetration(s, &deflection(s, eps)),
+                eps,
+                -reaction(s) / square(total_stiffness(s, eps)),
+            ),
+            limit(
+                "penetration-vanishes",
+                contact::penetration(s, &deflection(s, eps)),
+                eps,
+                0,
+                Equal(penetration(s, eps)),
+            ),
+            equal("unilateral", unilateral_deflection(s, eps), deflection(s, eps)).assuming([in_contact]),
+            equal("unilateral-free", unilateral_deflection(s, eps), structure::deflection(s))
+                .assuming([separated]),
+        ])
+}
+
+fn remark_1_3_2() -> Entry {
+    let Case { system: s, eps, tol, .. } = symbols();
+    let Hypotheses { stiffness, penalty, contact, tolerance, sufficient_penalty, within_tolerance, .. } =
+        hypotheses();
+    Entry::new("Remark 1.3.2", "Sufficient penalty")
+        .states("p ≤ tol if and only if ε ≥ «penalty::penalty_for»")
+        .assuming([stiffness, penalty, contact, tolerance])
+        .functions(["penalty::penalty_for", "penalty::penetration"])
+        .follows_from(["1.13"])
+        .claims([
+            non_negative("enough", tol - penetration(s, eps)).only_assuming([
+                tolerance,
+                contact,
+                sufficient_penalty,
             ]),
-        Entry::new("Remark 1.3.2", "Sufficient penalty")
-            .states("p ≤ tol if and only if ε ≥ «penalty::penalty_for»")
-            .assuming([stiffness, penalty, contact, tolerance])
-            .functions(["penalty::penalty_for", "penalty::penetration"])
-            .follows_from(["1.13"])
-            .claims([
-                non_negative("enough", tol - penetration(s, eps)).only_assuming([
-                    tolerance,
-                    contact,
-                    sufficient_penalty,
-                ]),
-                equal("least", penetration(s, &penalty_for(s, tol)), tol).only_assuming([tolerance, contact]),
-                non_negative("necessary", eps - penalty_for(s, tol)).only_assuming([
-                    stiffness,
-                    penalty,
-                    tolerance,
-                    within_tolerance,
-                ]),
+            equal("least", penetration(s, &penalty_for(s, tol)), tol).only_assuming([tolerance, contact]),
+            non_negative("necessary", eps - penalty_for(s, tol)).only_assuming([
+                stiffness,
+                penalty,
+                tolerance,
+                within_tolerance,
             ]),
-    ]
+        ])
 }
