@@ -101,9 +101,10 @@ pub fn entries() -> &'static [Entry] {
             ("notes", notes::entries()),
             ("beyond", beyond::entries()),
         ];
-        let of =
-            |(section, entries): (_, Vec<Entry>)| entries.into_iter().map(move |entry| entry.within(section));
-        sections.into_iter().flat_map(of).collect()
+        let sections = sections.into_iter();
+        sections
+            .flat_map(|(name, entries)| entries.into_iter().map(move |entry| entry.within(name)))
+            .collect()
     });
     &ENTRIES
 }

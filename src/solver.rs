@@ -107,22 +107,7 @@ pub fn solve_observed<T: Scalar>(
     let state = State::from_reaction(&reaction, system);
     let target = ExactSolution::of(&enclosed, reaction, method, state, plane);
     let bounds = target.bounds::<T>()?;
-    let finish = |found: RawSolution<T>| {
-        let solution = Solution {
-            state,
-            outcome: found.outcome,
-            penetration: contact::penetration(system, &found.deflection),
-            deflection: found.deflection,
-            contact_force: found.contact_force,
-            multiplier: found.multiplier,
-            augmentations: found.augmentations,
-            floor: found.floor,
-            bounds,
-        };
-        validate::require_finite(&solution)?;
-        Ok(solution)
-    };
-    match method {
+    let raw = match method {
         Method::Lagrange => {
             let contact_force = match (state, plane) {
                 (State::Contact, Plane::Unilateral) => contact::contact_force(system),
@@ -132,22 +117,36 @@ pub fn solve_observed<T: Scalar>(
             let deflection =
                 if target.free { structure::deflection(system) } else { lagrange::deflection(system) };
             let multiplier = Some(contact_force.clone());
-            finish(RawSolution { multiplier, ..RawSolution::direct(deflection, contact_force) })
+            RawSolution { multiplier, ..RawSolution::direct(deflection, contact_force) }
         }
-        Method::Penalty { penalty: eps } => finish(if target.free {
+        Method::Penalty { .. } if target.free => {
             RawSolution::direct(structure::deflection(system), T::zero())
-        } else {
+        }
+        Method::Penalty { penalty: eps } => {
             let deflection = penalty::deflection(system, eps);
             let force = augmented::contact_force(system, &deflection);
             let force = if plane == Plane::Unilateral { force.positive_part() } else { force };
             RawSolution::direct(deflection, force)
-        }),
+        }
         Method::Augmented { penalty: eps, tolerance, max_augmentations, start } => {
             validate::stiffness(system, eps)?;
             let steps = Augmentation::new(system, eps).with_multiplier(start.clone()).over(plane);
-            finish(iterate(steps, system, &enclosed, &target, tolerance, *max_augmentations, each)?)
+            iterate(steps, system, &enclosed, &target, tolerance, *max_augmentations, each)?
         }
-    }
+    };
+    let solution = Solution {
+        state,
+        outcome: raw.outcome,
+        penetration: contact::penetration(system, &raw.deflection),
+        deflection: raw.deflection,
+        contact_force: raw.contact_force,
+        multiplier: raw.multiplier,
+        augmentations: raw.augmentations,
+        floor: raw.floor,
+        bounds,
+    };
+    validate::require_finite(&solution)?;
+    Ok(solution)
 }
 
 /// Enclosures of the exact solution.
@@ -203,18 +202,27 @@ impl<E: crate::number::PositivePart> ExactSolution<E> {
         if self.free { u - &self.deflection } else { contact::penetration(enclosed, u) }
     }
 
+    /// Returns an upper bound of |u − u*|, the rounding error of the difference included.
+    fn error_bound<T: Scalar<Enclosure = E>>(&self, enclosed: &SpringMass<E>, u: &T) -> T {
+        T::magnitude(&self.error(enclosed, &u.enclose()))
+    }
+
     fn bounds<T: Scalar<Enclosure = E>>(&self) -> Result<Bounds<T>, SolveError> {
-        // Neither p nor N has the opposite sign of R, which is exact.
-        let signed = |Interval { lower, upper }: Interval<T>| match self.state {
+        Ok(Bounds {
+            deflection: to_interval(&self.deflection, "deflection")?,
+            penetration: self.with_sign(to_interval(&self.penetration, "penetration")?),
+            contact_force: self.with_sign(to_interval(&self.contact_force, "contact force")?),
+        })
+    }
+
+    /// Returns the part of an enclosure of p or N with the sign of R, which is exact; neither p nor N has the
+    /// opposite sign.
+    fn with_sign<T: Scalar>(&self, Interval { lower, upper }: Interval<T>) -> Interval<T> {
+        match self.state {
             State::Contact => Interval { lower: lower.positive_part(), upper },
             State::Grazing => Interval { lower: T::zero(), upper: T::zero() },
             State::Separated => Interval { lower, upper: upper.min(&T::zero()) },
-        };
-        Ok(Bounds {
-            deflection: to_interval(&self.deflection, "deflection")?,
-            penetration: signed(to_interval(&self.penetration, "penetration")?),
-            contact_force: signed(to_interval(&self.contact_force, "contact force")?),
-        })
+        }
     }
 }
 
@@ -276,10 +284,7 @@ fn iterate<T: Scalar>(
 ) -> Result<RawSolution<T>, SolveError> {
     let eps = steps.penalty().enclose();
     let free = target.free.then(|| structure::deflection(system));
-    // The bound includes the rounding error of the difference itself.
-    let bound = |u: &T| T::magnitude(&target.error(enclosed, &u.enclose()));
-    let mut side = None;
-    let mut digits = 0_u64;
+    let (mut side, mut digits) = (None, 0_u64);
     loop {
         let step = steps.step();
         let length = step.multiplier.variable_bit_length();
@@ -293,15 +298,9 @@ fn iterate<T: Scalar>(
             Some(free) => augmented::within_tolerance(&(&step.deflection - free), tolerance),
             None => augmented::within_tolerance(&step.penetration, tolerance),
         };
-        let residual_within = || {
-            let (u, lambda) = (step.deflection.enclose(), step.multiplier.enclose());
-            let residual = match steps.plane() {
-                Plane::Unilateral => augmented::natural_residual(enclosed, &eps, &lambda, &u),
-                Plane::Bilateral => contact::penetration(enclosed, &u),
-            };
-            T::magnitude(&residual) < *tolerance
-        };
-        let converged = within && bound(&step.deflection) < *tolerance && residual_within();
+        let converged = within
+            && target.error_bound(enclosed, &step.deflection) < *tolerance
+            && residual_bound(steps.plane(), enclosed, &eps, &step) < *tolerance;
         // While λ < 0 the unilateral iterate does not approach the solution yet, and p = 0 has no meaning.
         let approaching = steps.plane() == Plane::Bilateral || step.multiplier >= T::zero();
         let sign = step.penetration.partial_cmp(&T::zero());
@@ -317,7 +316,7 @@ fn iterate<T: Scalar>(
             continue;
         };
         return Ok(RawSolution {
-            floor: (outcome == Outcome::Stagnated).then(|| bound(&step.deflection)),
+            floor: (outcome == Outcome::Stagnated).then(|| target.error_bound(enclosed, &step.deflection)),
             outcome,
             deflection: step.deflection,
             contact_force: step.contact_force,
@@ -325,6 +324,20 @@ fn iterate<T: Scalar>(
             augmentations: Some(step.k),
         });
     }
+}
+
+/// Returns an upper bound of the natural residual of an iterate; with bilateral contact, of |p|.
+fn residual_bound<T: Scalar>(
+    plane: Plane,
+    enclosed: &SpringMass<T::Enclosure>,
+    eps: &T::Enclosure,
+    step: &Iterate<T>,
+) -> T {
+    let u = step.deflection.enclose();
+    T::magnitude(&match plane {
+        Plane::Unilateral => augmented::natural_residual(enclosed, eps, &step.multiplier.enclose(), &u),
+        Plane::Bilateral => contact::penetration(enclosed, &u),
+    })
 }
 
 /// Returns the smallest penalty ε, in N/m, whose penetration is at most `tolerance`, in m (remark 1.3.2).

@@ -45,6 +45,13 @@ pub struct Options {
     pub equations: Vec<String>,
 }
 
+impl Options {
+    /// Returns `true` if the entry with this equation number is to be verified.
+    fn includes(&self, equation: &str) -> bool {
+        self.equations.is_empty() || self.equations.iter().any(|included| included == equation)
+    }
+}
+
 /// f32, f64, 256 bits and rationals; 1000 cases from seed 1; all entries.
 impl Default for Options {
     fn default() -> Self {
@@ -56,14 +63,14 @@ impl Default for Options {
 
 /// Results of a verification.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct VerificationReport {
     /// One row for each claim and number system, in the chapter's order; the proof of a claim comes first.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ClaimResult>,
     /// Functions of the chapter that every unproved claim uses.
     pub shared: Vec<&'static str>,
 }
 
-impl Report {
+impl VerificationReport {
     /// Returns `true` if no claim failed, and there is at least one row.
     pub fn holds(&self) -> bool {
         !self.rows.is_empty() && self.rows.iter().all(|row| row.status != Status::Failed)
@@ -75,27 +82,23 @@ impl Report {
     }
 
     /// Returns the rows of each equation.
-    pub fn by_equation(&self) -> impl Iterator<Item = &[Row]> {
+    pub fn by_equation(&self) -> impl Iterator<Item = &[ClaimResult]> {
         self.rows.chunk_by(|a, b| a.equation == b.equation)
     }
 
     /// Returns the summary.
-    pub fn summary(&self) -> Summary {
-        let count = |status| self.rows.iter().filter(|row| row.status == status).count();
-        Summary {
-            claims: self.rows.len(),
-            proved: count(Status::Proved),
-            held: count(Status::Held),
-            undecided: count(Status::Undecided),
-            failed: count(Status::Failed),
-        }
+    pub fn summary(&self) -> VerificationSummary {
+        let [proved, held, undecided, failed] =
+            [Status::Proved, Status::Held, Status::Undecided, Status::Failed]
+                .map(|status| self.rows.iter().filter(|row| row.status == status).count());
+        VerificationSummary { claims: self.rows.len(), proved, held, undecided, failed }
     }
 }
 
 /// Numbers of rows by status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Summary {
+pub struct VerificationSummary {
     /// All rows.
     pub claims: usize,
     /// Proved claims.
@@ -110,16 +113,16 @@ pub struct Summary {
 
 /// Serialises the summary, the functions that unproved claims share, and the rows of each equation.
 #[cfg(feature = "serde")]
-impl serde::Serialize for Report {
+impl serde::Serialize for VerificationReport {
     fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
         #[derive(serde::Serialize)]
         struct Equation<'a> {
             equation: &'static str,
-            claims: &'a [Row],
+            claims: &'a [ClaimResult],
         }
         let equations = self.by_equation().map(|claims| Equation { equation: claims[0].equation, claims });
-        let mut report = to.serialize_struct("Report", 3)?;
+        let mut report = to.serialize_struct("VerificationReport", 3)?;
         report.serialize_field("summary", &self.summary())?;
         report.serialize_field("shared", &self.shared)?;
         report.serialize_field("equations", &equations.collect::<Vec<_>>())?;
@@ -158,7 +161,7 @@ crate::number::serialize_as_displayed!(Status);
 /// Result for one claim: its proof, or its cases in one number system.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Row {
+pub struct ClaimResult {
     /// The entry.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub equation: &'static str,
@@ -185,20 +188,20 @@ pub struct Row {
     pub counterexample: Option<Case<Exact>>,
 }
 
-impl Row {
+impl ClaimResult {
     /// Returns the counterexample with the quantities of the claim only; with all of them for an experiment.
     /// 2ᵖ of a law of rounding is that of the number system.
     pub fn point(&self) -> Option<Point> {
         let case = self.counterexample.as_ref()?;
         let claim = claims().find(|claim| (claim.equation(), claim.name()) == (self.equation, self.claim));
         let precision = claim.filter(|claim| claim.contains_rounding()).and(self.scalar);
-        let value = |var: Var| match precision {
-            Some(scalar) if var == Var::Bits => Exact::one() / scalar.unit_roundoff(),
-            _ => case.get(var).clone(),
-        };
         let symbols = claim.map(|claim| registry().symbols_of(claim.trees()));
-        let all = Var::ALL.iter().map(|var| (var.symbol(), value(*var)));
-        Some(Point::new(all.filter(|(symbol, _)| symbols.as_ref().is_none_or(|own| own.contains(symbol)))))
+        let mut vars = Var::ALL.to_vec();
+        vars.retain(|var| symbols.as_ref().is_none_or(|symbols| symbols.contains(&var.symbol())));
+        Some(Point::new(vars.into_iter().map(|var| match precision {
+            Some(scalar) if var == Var::Bits => (var.symbol(), Exact::one() / scalar.unit_roundoff()),
+            _ => (var.symbol(), case.get(var).clone()),
+        })))
     }
 }
 
@@ -218,10 +221,10 @@ mod serialize {
     }
 
     pub(super) fn coordinates<S: Serializer>(case: &Option<Case<Exact>>, to: S) -> Result<S::Ok, S::Error> {
-        let by_symbol = |case: &Case<Exact>| -> BTreeMap<&str, String> {
-            Var::ALL.iter().map(|var| (var.symbol(), case.get(*var).text())).collect()
-        };
-        case.as_ref().map(by_symbol).serialize(to)
+        let by_symbol: Option<BTreeMap<&str, String>> = case
+            .as_ref()
+            .map(|case| Var::ALL.iter().map(|var| (var.symbol(), case.get(*var).text())).collect());
+        by_symbol.serialize(to)
     }
 }
 
@@ -236,7 +239,7 @@ const WINDOW: usize = if cfg!(test) { 4 } else { 100 };
 ///
 /// Always returns, even for wrong formulas: a claim that is undefined, or whose evaluation panics, does not
 /// hold.
-pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Report {
+pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> VerificationReport {
     let checkers: Vec<_> = options.scalars.iter().map(|scalar| (*scalar, checks(*scalar))).collect();
     run(&checkers, statements(), options, progress)
 }
@@ -244,57 +247,51 @@ pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Re
 /// Runs the checkers, and proves the statements.
 fn run(
     checkers: &[(NumberSystem, Box<dyn ErasedChecker>)],
-    statements: Vec<Statement>,
+    mut statements: Vec<Statement>,
     options: &Options,
     progress: &(dyn Fn(usize, usize) + Sync),
-) -> Report {
-    let wanted =
-        |equation: &str| options.equations.is_empty() || options.equations.iter().any(|e| e == equation);
-    let statements: Vec<_> =
-        statements.into_iter().filter(|statement| wanted(statement.equation())).collect();
+) -> VerificationReport {
+    statements.retain(|statement| options.includes(statement.equation()));
     // Cases are checked while long proofs run.
-    let proofs = || statements.par_iter().map(proof).collect();
-    let (mut rows, tallies): (Vec<Row>, _) =
-        rayon::join(proofs, || tallies(checkers, options, &wanted, progress));
+    let (mut rows, tallies): (Vec<ClaimResult>, _) =
+        rayon::join(|| statements.par_iter().map(proof).collect(), || tallies(checkers, options, progress));
     let unproved = rows.iter().zip(&statements).filter(|(row, _)| row.status == Status::Failed);
     let shared = shared::shared(unproved.map(|(_, statement)| statement));
     for ((scalar, checker), tallies) in checkers.iter().zip(tallies) {
-        for (head, tally) in checker.heads().into_iter().zip(tallies) {
-            if wanted(head.equation) {
-                rows.push(tally.into_row(head, Some(*scalar)));
+        for (key, tally) in checker.keys().into_iter().zip(tallies) {
+            if options.includes(key.equation) {
+                rows.push(tally.into_result(key, Some(*scalar)));
             }
         }
     }
     rows.sort_by_key(|row| index_of(row.equation));
     // All rows of a claim are adjacent.
-    let mut sorted: Vec<Row> = Vec::with_capacity(rows.len());
+    let mut sorted: Vec<ClaimResult> = Vec::with_capacity(rows.len());
     for row in rows {
-        let same = |r: &Row| r.equation == row.equation && r.claim == row.claim;
-        let at = sorted.iter().rposition(same).map_or(sorted.len(), |i| i + 1);
-        sorted.insert(at, row);
+        let last = sorted.iter().rposition(|r| (r.equation, r.claim) == (row.equation, row.claim));
+        sorted.insert(last.map_or(sorted.len(), |last| last + 1), row);
     }
-    Report { rows: sorted, shared }
+    VerificationReport { rows: sorted, shared }
 }
 
 /// Returns for each number system a tally for each of its claims.
 fn tallies(
     checkers: &[(NumberSystem, Box<dyn ErasedChecker>)],
     options: &Options,
-    wanted: &(dyn Fn(&str) -> bool + Sync),
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Vec<Vec<Tally>> {
     let mut groups: Vec<Vec<Hypothesis>> = Vec::new();
     for (_, checker) in checkers {
-        for head in checker.heads().into_iter().filter(|head| wanted(head.equation)) {
-            if !groups.contains(&head.given) {
-                groups.push(head.given);
+        for key in checker.keys() {
+            if options.includes(key.equation) && !groups.contains(&key.hypotheses) {
+                groups.push(key.hypotheses);
             }
         }
     }
     let blocks = options.cases.div_ceil(BLOCK);
     let (done, all) = (AtomicUsize::new(0), (blocks as usize).saturating_mul(groups.len()));
     let mut totals: Vec<Vec<Tally>> =
-        checkers.iter().map(|(_, c)| c.heads().iter().map(|_| Tally::default()).collect()).collect();
+        checkers.iter().map(|(_, c)| c.keys().iter().map(|_| Tally::default()).collect()).collect();
     // Blocks are processed in windows, so that memory does not grow with the number of cases.
     for window in (0..blocks).step_by(WINDOW) {
         let window = window..blocks.min(window + WINDOW as u64);
@@ -303,11 +300,11 @@ fn tallies(
         // For each job and each checker, the tallies of the claims with the job's hypotheses.
         let results: Vec<Vec<Vec<(usize, Tally)>>> = jobs
             .par_iter()
-            .map(|(block, given)| {
+            .map(|(block, hypotheses)| {
                 let indices = block * BLOCK..(block * BLOCK).saturating_add(BLOCK).min(options.cases);
-                let cases: Vec<_> = indices.map(|i| cases::case(options.seed, i, given)).collect();
+                let cases: Vec<_> = indices.map(|i| cases::case(options.seed, i, hypotheses)).collect();
                 let tallies =
-                    checkers.iter().map(|(_, checker)| checker.check(given, wanted, &cases)).collect();
+                    checkers.iter().map(|(_, checker)| checker.check(hypotheses, options, &cases)).collect();
                 progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
                 tallies
             })
@@ -324,12 +321,12 @@ fn tallies(
 }
 
 /// Returns the row of a proof.
-fn proof(statement: &Statement) -> Row {
-    let (reason, counterexample) = match ProofAttempt::of(statement.clone()).answer {
+fn proof(statement: &Statement) -> ClaimResult {
+    let (reason, counterexample) = match ProofAttempt::of(statement.clone()).outcome {
         ProofOutcome::Proof(_) => (None, None),
         ProofOutcome::None(reason, counterexample) => (Some(reason), counterexample),
     };
-    Row {
+    ClaimResult {
         equation: statement.equation(),
         claim: statement.name(),
         kind: statement.kind(),

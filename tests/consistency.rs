@@ -7,7 +7,8 @@ use spring_mass_contact::number::tree::Op;
 use spring_mass_contact::number::{NumberSystem, Program, Tree};
 use spring_mass_contact::solver::{Outcome, State};
 use spring_mass_contact::verify::{
-    Options, Report, Row, Status, claim_names, exact_experiments, float_experiments, verify,
+    ClaimResult, Options, Status, VerificationReport, claim_names, exact_experiments, float_experiments,
+    verify,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -208,8 +209,8 @@ fn every_claim_has_an_entry_and_a_unique_name() {
 fn the_hypotheses_of_entries_match_those_of_their_claims() {
     let recorded = claims().map(|c| (c.equation(), c.stated_hypotheses().to_vec()));
     let floats = float_experiments::<f64>().into_iter();
-    let floats = floats.map(|e| (e.equation, e.given));
-    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.given));
+    let floats = floats.map(|e| (e.equation, e.hypotheses));
+    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.hypotheses));
     let all: Vec<_> = recorded.chain(floats).chain(rationals).collect();
     for e in entries() {
         let of_entry = || all.iter().filter(|(equation, _)| *equation == e.equation).map(|(_, given)| given);
@@ -340,7 +341,7 @@ fn no_formula_is_written_twice() {
 }
 
 /// Cases of every claim in five number systems.
-static REPORT: LazyLock<Report> = LazyLock::new(|| {
+static REPORT: LazyLock<VerificationReport> = LazyLock::new(|| {
     use NumberSystem::{Exact, F32, F64, Mpfr};
     let scalars = vec![F32, F64, Mpfr(24), Mpfr(777), Exact];
     verify(&Options { scalars, cases: 100, seed: 7, equations: vec![] }, &|_, _| ())
@@ -349,7 +350,7 @@ static REPORT: LazyLock<Report> = LazyLock::new(|| {
 #[test]
 fn every_claim_holds_in_every_number_system() {
     let failed = REPORT.rows.iter().filter(|row| !matches!(row.status, Status::Proved | Status::Held));
-    assert_none(failed.map(|Row { equation, claim, status, scalar, .. }| {
+    assert_none(failed.map(|ClaimResult { equation, claim, status, scalar, .. }| {
         let method = scalar.map_or("the proof".to_string(), |scalar| scalar.to_string());
         format!("{equation} {claim}: {status} in {method}: cargo run --release -- verify '{equation}'")
     }));
@@ -375,9 +376,9 @@ fn every_equation_of_the_chapter_has_a_proof_and_holds_in_all_floats() {
 /// If bounds were far too wide, the claims would be vacuous.
 #[test]
 fn rounding_errors_attain_a_good_part_of_their_bounds() {
-    let is_measured = |row: &&Row| row.kind == "equal" && row.scalar == Some(NumberSystem::F64);
+    let is_measured = |row: &&ClaimResult| row.kind == "equal" && row.scalar == Some(NumberSystem::F64);
     let measured: Vec<_> = REPORT.rows.iter().filter(is_measured).collect();
-    let is_tight = |row: &&&Row| row.worst.as_ref().is_some_and(|(ratio, _)| *ratio > 0.05);
+    let is_tight = |row: &&&ClaimResult| row.worst.as_ref().is_some_and(|(ratio, _)| *ratio > 0.05);
     let tight = measured.iter().filter(is_tight).count();
     assert!(2 * tight > measured.len(), "{tight} of {} claims use 5 % of their bound", measured.len());
 }

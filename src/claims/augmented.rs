@@ -135,19 +135,20 @@ fn rounded_augmentation() -> impl IntoIterator<Item = Statement> {
     let Case { system: s, u, v, eps, lambda, q, .. } = symbols();
     let Hypotheses { penalty, later_multiplier, fine_enough, in_contact, .. } = hypotheses();
     let Hypotheses { computed_inside, decay, near_iterate, some_bits, .. } = hypotheses();
-    let p = |lambda: &Tree| contact::penetration(s, &deflection(s, eps, lambda)).with_rounding();
+    let [p, later_p] =
+        [lambda, v].map(|lambda| contact::penetration(s, &deflection(s, eps, lambda)).with_rounding());
     let drift = rounding::penetration_drift(s, eps, precision());
     let lengths = s.h.abs() + gap(s).abs() + reaction(s) / eps;
     [
         non_negative("float-multiplier-rises", update(s, eps, lambda, u).with_rounding() - lambda.round())
             .only_assuming([penalty, computed_inside]),
-        non_negative("float-penetration-falls", p(lambda) - p(v)).assuming([later_multiplier]),
+        non_negative("float-penetration-falls", p - later_p).assuming([later_multiplier]),
         perturbed_recursion("float-drift", contraction(s, eps))
             .start(0)
             .step(|lambda| update(s, eps, lambda, u).with_rounding())
             .bounding(
                 |_| contact::penetration(s, u).with_rounding() - penetration_after(s, eps, &int(0), q),
-                rounding::penetration_drift(s, eps, precision()),
+                &drift,
             )
             .near(multiplier_after(s, &int(0), q), rounding::multiplier_drift(s, eps, precision()))
             .assuming([fine_enough, in_contact, decay, near_iterate])
@@ -166,7 +167,7 @@ fn rounded_augmentation() -> impl IntoIterator<Item = Statement> {
 fn theorem_1_3_3() -> Entry {
     let Case { system: s, eps, lambda, q, .. } = symbols();
     let Hypotheses { stiffness, penalty, below_reaction, above_reaction, power, .. } = hypotheses();
-    let next = contraction(s, eps) * q;
+    let [p, next_p] = [q, &(contraction(s, eps) * q)].map(|q| penetration_after(s, eps, lambda, q));
     Entry::new("Theorem 1.3.3", "Convergence of the augmentation")
         .states(
             "p(u_k) shrinks by the factor ρ = «augmented::contraction» in each step for every \
@@ -176,17 +177,9 @@ fn theorem_1_3_3() -> Entry {
         .functions(["augmented::contraction"])
         .follows_from(["1.16"])
         .claims([
-            geometric_limit("contracts", contraction(s, eps), penetration_after(s, eps, lambda, q), 0),
-            positive(
-                "falls",
-                penetration_after(s, eps, lambda, q) - penetration_after(s, eps, lambda, &next),
-            )
-            .assuming([below_reaction, power]),
-            positive(
-                "rises",
-                penetration_after(s, eps, lambda, &next) - penetration_after(s, eps, lambda, q),
-            )
-            .assuming([above_reaction, power]),
+            geometric_limit("contracts", contraction(s, eps), &p, 0),
+            positive("falls", &p - &next_p).assuming([below_reaction, power]),
+            positive("rises", next_p - p).assuming([above_reaction, power]),
             geometric_limit("force", contraction(s, eps), multiplier_after(s, lambda, q), reaction(s)),
         ])
 }
@@ -194,6 +187,7 @@ fn theorem_1_3_3() -> Entry {
 fn eq_1_17() -> Entry {
     let Case { system: s, eps, lambda, q, k, .. } = symbols();
     let Hypotheses { stiffness, penalty, below_reaction, above_reaction, power, count, .. } = hypotheses();
+    let p = penetration_after(s, eps, lambda, q);
     let next = &(k + int(1));
     let [bound, next_bound] = [k, next].map(|k| harmonic_bound(s, eps, k));
     let [first, current, last] = [&int(1), k, next].map(|k| &s.c + k * eps);
@@ -204,10 +198,8 @@ fn eq_1_17() -> Entry {
         .functions(["augmented::harmonic_bound", "augmented::contraction", "augmented::penetration_after"])
         .follows_from(["Theorem 1.3.3"])
         .claims([
-            positive("stays-positive", penetration_after(s, eps, lambda, q))
-                .assuming([below_reaction, power]),
-            positive("stays-negative", -penetration_after(s, eps, lambda, q))
-                .assuming([above_reaction, power]),
+            positive("stays-positive", &p).assuming([below_reaction, power]),
+            positive("stays-negative", -p).assuming([above_reaction, power]),
             non_negative("harmonic-step", &next_bound - contraction(s, eps) * &bound).assuming([count]),
             equal(
                 "harmonic-margin",

@@ -71,7 +71,8 @@ fn beyond_3() -> Entry {
     let Case { system: s, alpha, eps, lambda, .. } = symbols();
     let Hypotheses { stiffness, penalty, step, short_step, long_step, uzawa_step, .. } = hypotheses();
     let iterate = &augmented::deflection(s, eps, lambda);
-    let r = reaction(s);
+    let r = &reaction(s);
+    let factor = &beyond::relaxed_contraction(s, eps, alpha);
     Entry::new("beyond 3", "A separate step size")
         .states(
             "λ′ = «beyond::relaxed_update» multiplies the error by «beyond::relaxed_contraction»; \
@@ -81,20 +82,10 @@ fn beyond_3() -> Entry {
         .functions(["beyond::relaxed_update", "beyond::relaxed_contraction"])
         .follows_from(["1.16"])
         .claims([
-            equal(
-                "factor",
-                beyond::relaxed_update(s, alpha, lambda, iterate) - &r,
-                beyond::relaxed_contraction(s, eps, alpha) * (lambda - &r),
-            ),
-            equal(
-                "newton",
-                beyond::relaxed_update(s, &penalty::total_stiffness(s, eps), lambda, iterate),
-                reaction(s),
-            ),
-            positive("converges", int(1) - square(beyond::relaxed_contraction(s, eps, alpha)))
-                .only_assuming([step, short_step]),
-            positive("diverges", square(beyond::relaxed_contraction(s, eps, alpha)) - int(1))
-                .assuming([long_step]),
+            equal("factor", beyond::relaxed_update(s, alpha, lambda, iterate) - r, factor * (lambda - r)),
+            equal("newton", beyond::relaxed_update(s, &penalty::total_stiffness(s, eps), lambda, iterate), r),
+            positive("converges", int(1) - square(factor)).only_assuming([step, short_step]),
+            positive("diverges", square(factor) - int(1)).assuming([long_step]),
             positive("uzawa", int(1) - square(beyond::relaxed_contraction(s, &int(0), alpha)))
                 .only_assuming([step, uzawa_step]),
         ])

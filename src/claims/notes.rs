@@ -30,22 +30,15 @@ fn note_2() -> Entry {
     let Hypotheses { stiffness, .. } = hypotheses();
     let (gap, r) = (&system::gap(s), &system::reaction(s));
     let free = structure::deflection(s);
+    let excess = lagrange::functional(s, u, r) - lagrange::functional(s, gap, r);
     Entry::new("note 2", "A saddle point")
         .states("(1.7) is least in u and constant in λ at (Δ, R)")
         .assuming([stiffness])
         .functions(["lagrange::functional"])
         .follows_from(["1.7", "1.8"])
         .claims([
-            equal(
-                "saddle-in-deflection",
-                lagrange::functional(s, u, r) - lagrange::functional(s, gap, r),
-                half(&s.c * square(u - gap)),
-            )
-            .only_assuming([]),
-            non_negative(
-                "least-in-deflection",
-                lagrange::functional(s, u, r) - lagrange::functional(s, gap, r),
-            ),
+            equal("saddle-in-deflection", &excess, half(&s.c * square(u - gap))).only_assuming([]),
+            non_negative("least-in-deflection", excess),
             equal(
                 "constant-in-multiplier",
                 lagrange::functional(s, gap, lambda),
@@ -122,6 +115,8 @@ fn unilateral_equations() -> impl IntoIterator<Item = Statement> {
     let r = &system::reaction(s);
     let unilateral = &augmented::unilateral_deflection(s, eps, lambda);
     let next = &augmented::unilateral_update(s, eps, lambda, unilateral);
+    let residual = &augmented::natural_residual(s, eps, lambda, unilateral);
+    let error = &(unilateral - contact::deflection(s));
     [
         equal("equilibrium", augmented::unilateral_equilibrium(s, eps, lambda, unilateral), 0),
         non_negative("never-pulls", next),
@@ -143,17 +138,9 @@ fn unilateral_equations() -> impl IntoIterator<Item = Statement> {
             next,
             ((&s.c * lambda + eps * r) / penalty::total_stiffness(s, eps)).positive_part(),
         ),
-        equal(
-            "natural-residual",
-            augmented::natural_residual(s, eps, lambda, unilateral),
-            (next - lambda) / eps,
-        ),
-        non_negative(
-            "residual-bounds-error",
-            square(augmented::natural_residual(s, eps, lambda, unilateral))
-                - square(unilateral - contact::deflection(s)),
-        ),
-        equal("force-error", contact::contact_force(s) - next, &s.c * (unilateral - contact::deflection(s))),
+        equal("natural-residual", residual, (next - lambda) / eps),
+        non_negative("residual-bounds-error", square(residual) - square(error)),
+        equal("force-error", contact::contact_force(s) - next, &s.c * error),
         non_negative("contracts", square(lambda - r) - square(next - r)).assuming([in_contact]),
     ]
 }
@@ -271,7 +258,8 @@ fn note_5() -> Entry {
     let Hypotheses { stiffness, penalty, softening, zero_total_stiffness, at_reaction, .. } = hypotheses();
     let Hypotheses { penalty_below_minus_c, penalty_below_minus_two_c, power, time, .. } = hypotheses();
     let Hypotheses { penalty_above_minus_two_c, penalty_of_minus_two_c, .. } = hypotheses();
-    let r = &system::reaction(s);
+    let rho = &augmented::contraction(s, eps);
+    let p = &augmented::penetration_after(s, eps, lambda, q);
     let [flow, flow_on, flow_one] = [t, &(t + int(1)), &int(1)].map(|t| ode::homogeneous(s, eps, &int(1), t));
     Entry::new("note 5", "An analogy, not a proof")
         .states("e^{−ε/c} < ρ < e^{−ε/(c+ε)} for ε > 0, and p_k → 0 also for ε < −2c")
@@ -279,21 +267,14 @@ fn note_5() -> Entry {
         .functions(["augmented::contraction"])
         .follows_from(["1.16", "1.30"])
         .claims([
-            geometric_limit(
-                "beyond-twice",
-                augmented::contraction(s, eps),
-                augmented::penetration_after(s, eps, lambda, q),
-                0,
-            )
-            .assuming([penalty_below_minus_two_c]),
-            positive("alternates", -augmented::contraction(s, eps)).assuming([penalty_below_minus_two_c]),
-            equal("twice", augmented::contraction(s, eps), -1).assuming([penalty_of_minus_two_c]),
+            geometric_limit("beyond-twice", rho, p, 0).assuming([penalty_below_minus_two_c]),
+            positive("alternates", -rho).assuming([penalty_below_minus_two_c]),
+            equal("twice", rho, -1).assuming([penalty_of_minus_two_c]),
             positive("diverges", square(&s.c) - square(penalty::total_stiffness(s, eps)))
                 .only_assuming([softening, penalty_above_minus_two_c]),
-            equal("no-solution", augmented::equilibrium(s, eps, lambda, u), lambda - r)
+            equal("no-solution", augmented::equilibrium(s, eps, lambda, u), lambda - system::reaction(s))
                 .only_assuming([zero_total_stiffness]),
-            equal("starts-there", augmented::penetration_after(s, eps, lambda, q), 0)
-                .assuming([penalty, at_reaction]),
+            equal("starts-there", p, 0).assuming([penalty, at_reaction]),
             non_negative(
                 "maximises",
                 augmented::least_value(s, eps, lambda) - augmented::functional(s, eps, lambda, u),
@@ -301,11 +282,10 @@ fn note_5() -> Entry {
             .only_assuming([penalty_below_minus_c]),
             positive("ode-converges", -ode::rate(s, eps)).assuming([penalty_below_minus_c]),
             equal("no-penalty", augmented::contraction(s, &int(0)), 1),
-            positive("strict-bound", ode::rate(s, eps).exp() - augmented::contraction(s, eps))
-                .assuming([penalty]),
-            positive("other-side", augmented::contraction(s, eps) - (-eps / &s.c).exp()).assuming([penalty]),
+            positive("strict-bound", ode::rate(s, eps).exp() - rho).assuming([penalty]),
+            positive("other-side", rho - (-eps / &s.c).exp()).assuming([penalty]),
             // From one step to the next: a bound q + t above ρᵏ = q stays above it.
-            positive("stays-strict", ode::rate(s, eps).exp() * (q + t) - augmented::contraction(s, eps) * q)
+            positive("stays-strict", ode::rate(s, eps).exp() * (q + t) - rho * q)
                 .assuming([penalty, power, time]),
             equal("flow", flow_on, flow * flow_one).assuming([penalty]),
         ])
@@ -333,6 +313,7 @@ fn note_8() -> Entry {
     let Case { system: s, u, eps, lambda, .. } = symbols();
     let Hypotheses { stiffness, penalty, some_bits, computed_repeats, one_bit, .. } = hypotheses();
     let r = &system::reaction(s);
+    let bound = &rounding::fixed_point_error(s, eps, lambda, precision());
     let growth = (int(3) + eta()) / (precision() - int(1));
     let [height, length] = [s.h.abs(), lambda.abs() / eps];
     let lengths = s.h.abs() + system::gap(s).abs() + r / eps;
@@ -354,18 +335,9 @@ fn note_8() -> Entry {
         ])
         .follows_from(["1.16"])
         .claims([
-            within(
-                "floor",
-                contact::penetration(s, u),
-                rounding::fixed_point_error(s, eps, lambda, precision()),
-            )
-            .assuming([computed_repeats]),
-            equal(
-                "floor-in-parts",
-                rounding::fixed_point_error(s, eps, lambda, precision()) * precision(),
-                height + &length + growth * length,
-            )
-            .assuming([one_bit]),
+            within("floor", contact::penetration(s, u), bound).assuming([computed_repeats]),
+            equal("floor-in-parts", bound * precision(), height + &length + growth * length)
+                .assuming([one_bit]),
             equal("drift-in-parts", rounding::floor_scale(s, eps, precision()) * precision(), lengths)
                 .assuming([some_bits]),
             equal("units", in_other_units(&deflection), deflection * length_scale)

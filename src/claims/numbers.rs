@@ -50,11 +50,7 @@ pub fn find_entries<S: AsRef<str>>(words: &[S]) -> Result<Vec<&'static Entry>, &
 
 /// Returns the kind of number in lower case, empty for an equation, and its digits.
 fn name_and_number(text: &str) -> (String, &str) {
-    let bare = |text| {
-        let text = str::trim(text);
-        text.strip_prefix('(').and_then(|text| text.strip_suffix(')')).map_or(text, str::trim)
-    };
-    let text = bare(text);
+    let text = strip_parentheses(text);
     let (name, number) = text.split_at(text.find(|c: char| !c.is_alphabetic()).unwrap_or(text.len()));
     let name = name.to_lowercase();
     let number = if name.is_empty() { number } else { number.strip_prefix('.').unwrap_or(number) };
@@ -65,7 +61,12 @@ fn name_and_number(text: &str) -> (String, &str) {
         "thm" => "theorem",
         other => other,
     };
-    (name.to_string(), bare(number))
+    (name.to_string(), strip_parentheses(number))
+}
+
+fn strip_parentheses(text: &str) -> &str {
+    let text = text.trim();
+    text.strip_prefix('(').and_then(|text| text.strip_suffix(')')).map_or(text, str::trim)
 }
 
 #[cfg(test)]

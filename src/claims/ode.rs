@@ -41,8 +41,9 @@ pub(super) fn entries() -> Vec<Entry> {
 fn eq_1_22() -> Entry {
     let Case { system: s, eps, lambda, q, .. } = symbols();
     let Hypotheses { stiffness, penalty, .. } = hypotheses();
-    let after = |decay: &Tree| augmented::deflection_after(s, eps, lambda, decay);
-    let (left, right) = difference_equation(s, eps, &after(q), &after(&(augmented::contraction(s, eps) * q)));
+    let [u, next] = [q, &(augmented::contraction(s, eps) * q)]
+        .map(|decay| augmented::deflection_after(s, eps, lambda, decay));
+    let (left, right) = difference_equation(s, eps, &u, &next);
     Entry::new("1.22", "Recursion in time")
         .states("«ode::difference_equation.left» = «ode::difference_equation.right»")
         .assuming([stiffness, penalty])

@@ -54,7 +54,7 @@ fn eq_1_10() -> Entry {
     let Case { system: s, u, eps, eps4, .. } = symbols();
     let Hypotheses { stiffness, penalty, quartic, penetrating, .. } = hypotheses();
     let quartic_term = std::slice::from_ref(eps4);
-    let f = |p: &Tree| series_residual(s, eps, quartic_term, p);
+    let [residual, mirrored] = [u, &-u].map(|p| series_residual(s, eps, quartic_term, p));
     let dual = symbols().with_dual_variable(u);
     Entry::new("1.10", "Penalty functional with many terms")
         .states("W = «penalty::series» satisfies the conditions on a penalty functional")
@@ -74,7 +74,7 @@ fn eq_1_10() -> Entry {
                 .only_assuming([]),
             derivative("slope", series(eps, quartic_term, u), u, series_force(eps, quartic_term, u))
                 .only_assuming([]),
-            equal("odd", f(u) + f(&-u), -(int(2) * reaction(s))).only_assuming([]),
+            equal("odd", residual + mirrored, -(int(2) * reaction(s))).only_assuming([]),
             derivative(
                 "stiffens",
                 series_residual(s, eps, quartic_term, u),
@@ -109,11 +109,11 @@ fn eq_1_11() -> Entry {
 fn eq_1_12() -> Entry {
     let Case { system: s, u, eps, .. } = symbols();
     let Hypotheses { stiffness, penalty, contact, in_contact, near_penalty, some_bits, .. } = hypotheses();
-    let lengths = s.h.abs() + int(5) * gap(s).abs();
-    let parts = eps * lengths + int(7) * reaction(s);
+    let n = &contact_force_at_equilibrium(s, eps);
+    let bound = &rounding::penalty_force_error(s, eps, precision());
+    let parts = eps * (s.h.abs() + int(5) * gap(s).abs()) + int(7) * reaction(s);
     let best = &rounding::best_compliance_squared(s, precision());
-    let error = reaction(s) - contact_force_at_equilibrium(s, eps)
-        + rounding::penalty_force_error(s, eps, precision());
+    let error = reaction(s) - n + bound;
     let fixed = int(7) * eta() * (int(1) + int(8) * eta()) - square(&s.c) * best;
     let p = penetration(s, eps);
     Entry::new("1.12", "Contact force by penalty")
@@ -123,31 +123,15 @@ fn eq_1_12() -> Entry {
         .functions(["penalty::contact_force", "penalty::contact_force_at_equilibrium"])
         .follows_from(["1.11"])
         .claims([
-            equal(
-                "at-the-root",
-                contact_force(s, eps, &deflection(s, eps)),
-                contact_force_at_equilibrium(s, eps),
-            ),
-            positive("pushes", contact_force_at_equilibrium(s, eps)).assuming([contact]),
-            equal("error", reaction(s) - contact_force_at_equilibrium(s, eps), &s.c * penetration(s, eps)),
-            equal(
-                "relative-error",
-                reaction(s) - contact_force_at_equilibrium(s, eps),
-                augmented::contraction(s, eps) * reaction(s),
-            ),
-            within(
-                "precision-law",
-                contact_force(s, eps, u).with_rounding() - contact_force_at_equilibrium(s, eps),
-                rounding::penalty_force_error(s, eps, precision()),
-            )
-            .assuming([in_contact, near_penalty])
-            .computing(u, deflection(s, eps).with_rounding()),
-            equal(
-                "precision-law-in-parts",
-                rounding::penalty_force_error(s, eps, precision()) * precision(),
-                &parts + int(8) * eta() * &parts,
-            )
-            .only_assuming([some_bits]),
+            equal("at-the-root", contact_force(s, eps, &deflection(s, eps)), n),
+            positive("pushes", n).assuming([contact]),
+            equal("error", reaction(s) - n, &s.c * penetration(s, eps)),
+            equal("relative-error", reaction(s) - n, augmented::contraction(s, eps) * reaction(s)),
+            within("precision-law", contact_force(s, eps, u).with_rounding() - n, bound)
+                .assuming([in_contact, near_penalty])
+                .computing(u, deflection(s, eps).with_rounding()),
+            equal("precision-law-in-parts", bound * precision(), &parts + int(8) * eta() * &parts)
+                .only_assuming([some_bits]),
             // The error of the force relative to R, without the part that is independent of ε. It is
             // smallest if the square on the right vanishes.
             equal(
@@ -156,7 +140,7 @@ fn eq_1_12() -> Entry {
                 square(augmented::contraction(s, eps) - &s.c * total_stiffness(s, eps) * best),
             )
             .assuming([contact, some_bits]),
-            equal("complementarity", &p * contact_force_at_equilibrium(s, eps), eps * &p * &p),
+            equal("complementarity", &p * n, eps * &p * &p),
         ])
 }
 
@@ -175,6 +159,8 @@ fn figure_1_2() -> Entry {
 fn eq_1_13() -> Entry {
     let Case { system: s, eps, .. } = symbols();
     let Hypotheses { stiffness, penalty, in_contact, separated, some_bits, .. } = hypotheses();
+    let u = &deflection(s, eps);
+    let bound = &rounding::deflection_error(s, eps, precision());
     let parts = int(5) * gap(s).abs() + int(4) * penetration(s, eps);
     Entry::new("1.13", "Deflection by penalty and its limit")
         .states(
@@ -191,41 +177,22 @@ fn eq_1_13() -> Entry {
         .functions(["penalty::deflection", "penalty::deflection_divided"])
         .follows_from(["1.11"])
         .claims([
-            equal("rate", total_stiffness(s, eps) * (deflection(s, eps) - gap(s)), reaction(s)),
-            limit("limit", deflection(s, eps), eps, gap(s), Equal(reaction(s) / total_stiffness(s, eps))),
-            equal("two-forms", deflection(s, eps), deflection_divided(s, eps)),
-            within(
-                "float-error",
-                deflection(s, eps).with_rounding() - deflection(s, eps),
-                rounding::deflection_error(s, eps, precision()),
-            )
-            .assuming([in_contact]),
-            equal(
-                "float-error-in-parts",
-                rounding::deflection_error(s, eps, precision()) * precision(),
-                &parts + int(2) * eta() * &parts,
-            )
-            .assuming([some_bits]),
-            within(
-                "float-distance",
-                deflection(s, eps).with_rounding() - gap(s),
-                penetration(s, eps) + rounding::deflection_error(s, eps, precision()),
-            )
-            .assuming([in_contact]),
+            equal("rate", total_stiffness(s, eps) * (u - gap(s)), reaction(s)),
+            limit("limit", u, eps, gap(s), Equal(reaction(s) / total_stiffness(s, eps))),
+            equal("two-forms", u, deflection_divided(s, eps)),
+            within("float-error", u.with_rounding() - u, bound).assuming([in_contact]),
+            equal("float-error-in-parts", bound * precision(), &parts + int(2) * eta() * &parts)
+                .assuming([some_bits]),
+            within("float-distance", u.with_rounding() - gap(s), penetration(s, eps) + bound)
+                .assuming([in_contact]),
             derivative(
                 "slope",
-                contact::penetration(s, &deflection(s, eps)),
+                contact::penetration(s, u),
                 eps,
                 -reaction(s) / square(total_stiffness(s, eps)),
             ),
-            limit(
-                "penetration-vanishes",
-                contact::penetration(s, &deflection(s, eps)),
-                eps,
-                0,
-                Equal(penetration(s, eps)),
-            ),
-            equal("unilateral", unilateral_deflection(s, eps), deflection(s, eps)).assuming([in_contact]),
+            limit("penetration-vanishes", contact::penetration(s, u), eps, 0, Equal(penetration(s, eps))),
+            equal("unilateral", unilateral_deflection(s, eps), u).assuming([in_contact]),
             equal("unilateral-free", unilateral_deflection(s, eps), structure::deflection(s))
                 .assuming([separated]),
         ])

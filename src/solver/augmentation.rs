@@ -108,8 +108,8 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
     fn step_in_place(&mut self) -> Iterate<T> {
         let Record { program, multiplier, step } = Record::of(self.plane);
         let rounds = self.rounds.get_or_insert_with(|| {
-            let fixed = |name| known(name, self.system, self.penalty);
-            program.specialize(&fixed, &piecewise_ops).expect(ELEMENTARY)
+            let system = self.system;
+            program.specialize(&|name| known(name, system, self.penalty), &piecewise_ops).expect(ELEMENTARY)
         });
         let spare = rounds.replace(*multiplier, replace(&mut self.multiplier, T::zero()));
         rounds.run(&piecewise_ops).expect(ELEMENTARY);
@@ -207,14 +207,13 @@ impl Record {
         let [penalty, lambda] = ["ε", "λ"].map(|name| Tree::symbol(name));
         let step = Step::of(plane, &system, &penalty, &lambda);
         let mut program = Program::default();
-        let mut place = |formula: Tree| program.add(&formula);
-        let multiplier = place(lambda);
+        let multiplier = program.add(&lambda);
         let step = Step {
-            deflection: place(step.deflection),
-            penetration: place(step.penetration),
-            contact_force: place(step.contact_force),
-            next: place(step.next),
-            free: step.free.map(place),
+            deflection: program.add(&step.deflection),
+            penetration: program.add(&step.penetration),
+            contact_force: program.add(&step.contact_force),
+            next: program.add(&step.next),
+            free: step.free.map(|free| program.add(&free)),
         };
         Record { program, multiplier, step }
     }

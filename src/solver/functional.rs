@@ -145,26 +145,21 @@ fn in_contact<T: Scalar>(
     if upper.is_zero() {
         return Ok(rigid);
     }
-    let below = |p: &T| system::gap(&enclosed) + p.enclose();
-    // R − c p, which decreases with the penetration.
-    let force = |p: &T| augmented::contact_force(&equation.spring, &p.enclose()).positive_part();
-    let ends = |lower, upper, quantity| -> Result<Interval<T>, SolveError> {
-        let (lower, upper): (Interval<T>, _) =
-            (to_interval(&lower, quantity)?, to_interval(&upper, quantity)?);
-        Ok(Interval { lower: lower.lower, upper: upper.upper })
-    };
     let deflection = system::gap(system) + middle(&lower, &upper);
-    let off = |p: &T| T::magnitude(&(deflection.enclose() - below(p)));
-    let (above, under) = (off(&lower), off(&upper));
-    let error = if above < under { under } else { above };
+    let deflections = [&lower, &upper].map(|p| system::gap(&enclosed) + p.enclose());
+    let [above, below] = deflections.each_ref().map(|u| T::magnitude(&(deflection.enclose() - u)));
+    let error = if above < below { below } else { above };
+    // R − c p, which decreases with the penetration.
+    let forces =
+        [&upper, &lower].map(|p| augmented::contact_force(&equation.spring, &p.enclose()).positive_part());
     let outcome = match ended {
         _ if error < *tolerance => Outcome::Converged,
         true => Outcome::Stagnated,
         false => Outcome::IterationLimit,
     };
     let bounds = Bounds {
-        deflection: ends(below(&lower), below(&upper), "deflection")?,
-        contact_force: ends(force(&upper), force(&lower), "contact force")?,
+        deflection: span(&deflections, "deflection")?,
+        contact_force: span(&forces, "contact force")?,
         penetration: Interval { lower, upper },
     };
     let solution = Solution {
@@ -178,6 +173,16 @@ fn in_contact<T: Scalar>(
     };
     validate::require_finite(&solution)?;
     Ok(solution)
+}
+
+/// Returns the interval from the lower bound of one enclosure to the upper bound of another.
+fn span<T: Scalar>(
+    [lower, upper]: &[T::Enclosure; 2],
+    quantity: &'static str,
+) -> Result<Interval<T>, SolveError> {
+    let (lower, upper): (Interval<T>, Interval<T>) =
+        (to_interval(lower, quantity)?, to_interval(upper, quantity)?);
+    Ok(Interval { lower: lower.lower, upper: upper.upper })
 }
 
 /// Returns a penalty, the first of the `parameters` in its own units, for which the minimum with a
@@ -213,7 +218,6 @@ pub fn penalty_for_functional<T: Scalar, const N: usize>(
     validate::positive("tolerance", tolerance)?;
     lifted(parameters)?;
     let mut parameters = parameters.clone();
-    let unbounded = || broken(Condition::UnboundedInPenalty, tolerance);
     let enclosed = system.map(T::enclose);
     let spring = reduced_system(enclosed.c.clone(), system::reaction(&enclosed));
     // −R²/(2c), the least energy of a mass of weight R.
@@ -221,10 +225,9 @@ pub fn penalty_for_functional<T: Scalar, const N: usize>(
     let p = Dual::constant(tolerance.enclose());
     for _ in 0..=1000 {
         let lifted = lifted(&parameters)?;
-        let at = |p: &DualEnclosure<T>| functional(&lifted, p).value;
-        vanishes::<T>(&at(&Dual::zero()))?;
-        let w = at(&p);
-        let eps = parameters.first_mut().ok_or_else(unbounded)?;
+        vanishes::<T>(&functional(&lifted, &Dual::zero()).value)?;
+        let w = functional(&lifted, &p).value;
+        let Some(eps) = parameters.first_mut() else { break };
         if !touches || T::sign(&(w + &least)) == Some(Ordering::Greater) {
             return Ok(eps.clone());
         }
@@ -233,7 +236,7 @@ pub fn penalty_for_functional<T: Scalar, const N: usize>(
             break;
         }
     }
-    Err(unbounded())
+    Err(broken(Condition::UnboundedInPenalty, tolerance))
 }
 
 /// Returns an error unless W is finite and its enclosure contains 0.

@@ -28,6 +28,12 @@ pub(super) struct RootBracket<T> {
     pub(super) ended: bool,
 }
 
+impl<T: Clone> RootBracket<T> {
+    fn point(root: T) -> Self {
+        RootBracket { lower: root.clone(), upper: root, ended: true }
+    }
+}
+
 /// Position of a penetration relative to the root, by the sign of c p + W′ − R, with an estimate of its
 /// magnitude.
 enum Side<T> {
@@ -82,7 +88,6 @@ impl<'a, E: PositivePart> Equation<'a, E> {
 
     /// Tests the conditions at 0 and at the sixteenths of R/c.
     pub(super) fn check<T: Scalar<Enclosure = E>>(&self, most: &T) -> Result<(), FunctionalError> {
-        let negative = |x: &E| T::sign(x) == Some(Ordering::Less);
         let mut last = (T::zero(), self.energy_and_force(&T::zero()));
         vanishes::<T>(&last.1.value)?;
         for i in 1..=16 {
@@ -95,13 +100,16 @@ impl<'a, E: PositivePart> Equation<'a, E> {
             let further = p.enclose() - last.0.enclose();
             // The increase of a convex W is at most that for the last force, and at least that for the first.
             let conditions = [
-                (Condition::Monotone, negative(&w.derivative) || negative(&gained)),
-                (Condition::Convex, negative(&(&w.derivative - &last.1.derivative))),
-                (Condition::Convex, negative(&(&gained - &last.1.derivative * &further))),
-                (Condition::Continuous, negative(&(&w.derivative * &further - &gained))),
+                (Condition::Monotone, w.derivative.clone()),
+                (Condition::Monotone, gained.clone()),
+                (Condition::Convex, &w.derivative - &last.1.derivative),
+                (Condition::Convex, &gained - &last.1.derivative * &further),
+                (Condition::Continuous, &w.derivative * &further - &gained),
             ];
-            if let Some((condition, _)) = conditions.into_iter().find(|(_, seen)| *seen) {
-                return Err(broken(condition, &p));
+            // None of these is negative if the conditions hold.
+            let mut violated = conditions.iter().filter(|(_, x)| T::sign(x) == Some(Ordering::Less));
+            if let Some((condition, _)) = violated.next() {
+                return Err(broken(*condition, &p));
             }
             last = (p, w);
         }
@@ -119,10 +127,9 @@ impl<'a, E: PositivePart> Equation<'a, E> {
         most: &T,
         enough: &T,
     ) -> Result<RootBracket<T>, FunctionalError> {
-        let exactly = |p: T| Ok(RootBracket { lower: p.clone(), upper: p, ended: true });
         let mut lower = match self.side(&T::zero())? {
             Side::Below(size) => End { p: T::zero(), size },
-            Side::At | Side::Above(_) => return exactly(T::zero()),
+            Side::At | Side::Above(_) => return Ok(RootBracket::point(T::zero())),
             Side::Near => return self.around(&T::zero(), &T::zero(), most),
             Side::Nowhere => return Err(broken(Condition::ZeroAtContact, &T::zero())),
         };
@@ -134,7 +141,7 @@ impl<'a, E: PositivePart> Equation<'a, E> {
                     upper = Some(End { p, size });
                     break;
                 }
-                Side::At => return exactly(p),
+                Side::At => return Ok(RootBracket::point(p)),
                 Side::Near => return self.around(&p, &lower.p, most),
                 Side::Below(size) => lower = End { p, size },
                 // An overflow occurs only beyond the root.
@@ -158,7 +165,7 @@ impl<'a, E: PositivePart> Equation<'a, E> {
                     match self.side(p)? {
                         Side::Below(size) => lower = End { p: p.clone(), size },
                         Side::Above(size) => upper = End { p: p.clone(), size },
-                        Side::At => return exactly(p.clone()),
+                        Side::At => return Ok(RootBracket::point(p.clone())),
                         Side::Near | Side::Nowhere => return self.around(p, &lower.p, &upper.p),
                     }
                 }
@@ -194,9 +201,8 @@ impl<'a, E: PositivePart> Equation<'a, E> {
         first: u64,
         certain: impl Fn(Side<T>) -> bool,
     ) -> Result<(T, u64), FunctionalError> {
-        let at = |k| near + (far - near) * power(&half(&T::one()), k);
         let holds = |k| -> Result<bool, FunctionalError> {
-            let p = at(k);
+            let p = halve_distance(near, far, k);
             Ok(p != *near && certain(self.side(&p)?))
         };
         // The distance doubles in each step, towards the last such number.
@@ -208,8 +214,13 @@ impl<'a, E: PositivePart> Equation<'a, E> {
             let k = certain + (open - certain) / 2;
             if holds(k)? { certain = k } else { open = k }
         }
-        Ok((if certain == 0 { far.clone() } else { at(certain) }, certain))
+        Ok((if certain == 0 { far.clone() } else { halve_distance(near, far, certain) }, certain))
     }
+}
+
+/// Returns `near` + (`far` − `near`)/2ᵏ.
+fn halve_distance<T: Scalar>(near: &T, far: &T, k: u64) -> T {
+    near + (far - near) * power(&half(&T::one()), k)
 }
 
 /// One bound of the interval that contains the root.

@@ -219,14 +219,18 @@ mod machine {
     use super::*;
     by_ball! {
         f32, |plus: [(&f32, &f32); 2], minus: (&f32, &f32)| {
-            let wide = |(a, b): (&f32, &f32)| (f64::from(*a), f64::from(*b));
-            sign_of_sum(plus.map(wide), wide(minus))
+            sign_of_sum(plus.map(widen), widen(minus))
         };
         f64, |plus: [(&f64, &f64); 2], (a, b): (&f64, &f64)| {
             sign_of_sum(plus.map(|(a, b)| (*a, *b)), (*a, *b))
         };
     }
 }
+
+fn widen((a, b): (&f32, &f32)) -> (f64, f64) {
+    (f64::from(*a), f64::from(*b))
+}
+
 fn sign_of_sum(plus: [(f64, f64); 2], (a, b): (f64, f64)) -> Ordering {
     let mut sum = Accumulator::new();
     for (a, b) in [plus[0], plus[1], (-a, b)] {

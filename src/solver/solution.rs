@@ -58,8 +58,7 @@ impl State {
     /// Returns the state of a system from an enclosure of its reaction.
     pub(super) fn from_reaction<T: Scalar>(reaction: &T::Enclosure, system: &SpringMass<T>) -> State {
         let SpringMass { c, m, g, l, h } = system;
-        let exactly = || T::sign_of_sum([(m, g), (c, l)], (c, h));
-        match T::sign(reaction).unwrap_or_else(exactly) {
+        match T::sign(reaction).unwrap_or_else(|| T::sign_of_sum([(m, g), (c, l)], (c, h))) {
             Ordering::Greater => State::Contact,
             Ordering::Equal => State::Grazing,
             Ordering::Less => State::Separated,

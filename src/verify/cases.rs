@@ -3,6 +3,7 @@
 //! A number is drawn as an integer mantissa and an integer exponent, so that a seed has the same meaning on
 //! every machine.
 
+use crate::chapter::system;
 use crate::claims::{Case, Var, hypotheses};
 use crate::eval::{Coordinates, Point, adjust};
 use crate::formula::{Hypothesis, Relation};
@@ -88,14 +89,14 @@ impl Small {
 }
 
 /// Random source of one case.
-struct Draw {
+struct CaseSampler {
     random: Rand64,
     profile: Profile,
     /// Subnormal quantities, for the subnormal profiles.
     small: Small,
 }
 
-impl Draw {
+impl CaseSampler {
     fn below(&mut self, n: u64) -> u64 {
         self.random.rand_range(0..n)
     }
@@ -154,15 +155,13 @@ impl Draw {
 
     /// Returns one unit in the last place of c Δ, or 0.
     fn next_to_grazing(&mut self, case: &Case<Exact>) -> Exact {
-        let ulp = |n: i32| {
-            (&case.system.c * crate::chapter::system::gap(&case.system)).abs() * Exact::power_of_two(n)
-        };
+        let force = (&case.system.c * system::gap(&case.system)).abs();
         match self.below(5) {
             0 => Exact::zero(),
-            1 => ulp(-23),
-            2 => -ulp(-23),
-            3 => ulp(-52),
-            _ => -ulp(-52),
+            1 => force * Exact::power_of_two(-23),
+            2 => -force * Exact::power_of_two(-23),
+            3 => force * Exact::power_of_two(-52),
+            _ => -force * Exact::power_of_two(-52),
         }
     }
 
@@ -186,19 +185,19 @@ impl Draw {
 
 /// Returns case number `index` of a seed with the hypotheses satisfied; `None` if it cannot be adjusted to
 /// them.
-pub(super) fn case(seed: u64, index: u64, given: &[Hypothesis]) -> Option<Case<Exact>> {
+pub(super) fn case(seed: u64, index: u64, hypotheses: &[Hypothesis]) -> Option<Case<Exact>> {
     let profile = PROFILES[(index % PROFILES.len() as u64) as usize];
     let random = Rand64::new((u128::from(seed) << 64) | u128::from(index));
-    let mut draw = Draw { random, profile, small: Small::Products };
-    let mut case = draw.raw();
-    adjust(&mut case, given, |hypothesis, case| {
+    let mut sampler = CaseSampler { random, profile, small: Small::Products };
+    let mut case = sampler.raw();
+    adjust(&mut case, hypotheses, |hypothesis, case| {
         let value = hypothesis.value.eval(&|symbol| case.get_by_symbol(symbol), &|_| None)?;
         Some(match hypothesis.relation {
             Relation::Zero => Exact::zero(),
-            Relation::NonNegative if draw.below(4) == 0 => Exact::zero(),
-            _ if value.is_zero() => match draw.next_to_grazing(case).abs() {
+            Relation::NonNegative if sampler.below(4) == 0 => Exact::zero(),
+            _ if value.is_zero() => match sampler.next_to_grazing(case).abs() {
                 tiny if profile == Profile::Grazing && !tiny.is_zero() => tiny,
-                _ => draw.magnitude(Var::Lambda),
+                _ => sampler.magnitude(Var::Lambda),
             },
             _ => value.abs(),
         })

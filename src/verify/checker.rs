@@ -1,7 +1,7 @@
 //! Checks of claims in one number system.
 
 use super::experiments::{Experiment, Trial, exact_experiments, float_experiments};
-use super::{Row, Status};
+use super::{ClaimResult, Options, Status};
 use crate::claims::Case;
 use crate::eval::{
     Balls, Domain, Evaluation, Failure, Instance, Quantity, Rationals, Test, UNFOLDED_MEMBERS, Value,
@@ -22,7 +22,27 @@ pub(super) struct ClaimKey {
     pub(super) equation: &'static str,
     claim: &'static str,
     kind: &'static str,
-    pub(super) given: Vec<Hypothesis>,
+    pub(super) hypotheses: Vec<Hypothesis>,
+}
+
+impl ClaimKey {
+    fn of_claim(claim: &Statement) -> Self {
+        ClaimKey {
+            equation: claim.equation(),
+            claim: claim.name(),
+            kind: claim.kind(),
+            hypotheses: claim.stated_hypotheses().to_vec(),
+        }
+    }
+
+    fn of_experiment<T>(experiment: &Experiment<T>) -> Self {
+        ClaimKey {
+            equation: experiment.equation,
+            claim: experiment.name,
+            kind: "experiment",
+            hypotheses: experiment.hypotheses.clone(),
+        }
+    }
 }
 
 /// Results of the cases of a claim.
@@ -74,8 +94,7 @@ impl Tally {
             Ok(Trial::Undecided) => self.skip(),
             Ok(Trial::Decided(holds)) => self.decide(case, holds, None),
             Ok(Trial::Within { error, bound }) => {
-                let text = || Mpfr::rounded(24, bound.as_rational()).to_string();
-                self.measure(share(&error, &bound), text);
+                self.measure(ratio(&error, &bound), || Mpfr::rounded(24, bound.as_rational()).to_string());
                 self.decide(case, error <= bound, None);
             }
         }
@@ -98,23 +117,23 @@ impl Tally {
                 && let (Some(left), Some(right)) = (values.at(*left), values.at(*right))
             {
                 let [error, bound] = D::difference(left, right);
-                self.measure(share(&error, &bound), || format!("{bound:?}"));
+                self.measure(ratio(&error, &bound), || format!("{bound:?}"));
             }
         }
         self.decide(case, holds, reason);
     }
 
-    pub(super) fn into_row(self, head: ClaimKey, scalar: Option<NumberSystem>) -> Row {
+    pub(super) fn into_result(self, key: ClaimKey, scalar: Option<NumberSystem>) -> ClaimResult {
         let status = match (&self.failure, self.decided) {
             (Some(_), _) => Status::Failed,
             (None, 0) => Status::Undecided,
             (None, _) => Status::Held,
         };
         let (counterexample, reason) = self.failure.unzip();
-        Row {
-            equation: head.equation,
-            claim: head.claim,
-            kind: head.kind,
+        ClaimResult {
+            equation: key.equation,
+            claim: key.claim,
+            kind: key.kind,
             scalar,
             status,
             reason: reason.flatten(),
@@ -192,7 +211,7 @@ where
 }
 
 /// Returns the ratio of an error and its bound, for a report only.
-fn share<T: Scalar + ToExact>(error: &T, bound: &T) -> f64 {
+fn ratio<T: Scalar + ToExact>(error: &T, bound: &T) -> f64 {
     match (error.is_zero(), bound.is_zero()) {
         (true, _) => 0.0,
         (false, true) => f64::INFINITY,
@@ -204,21 +223,22 @@ fn share<T: Scalar + ToExact>(error: &T, bound: &T) -> f64 {
 
 /// Claims and experiments of a number system with its types erased.
 pub(super) trait ErasedChecker: Sync {
-    /// Returns all claims and experiments in order.
-    fn heads(&self) -> Vec<ClaimKey>;
+    /// Returns the keys of all claims and experiments in order.
+    fn keys(&self) -> Vec<ClaimKey>;
 
-    /// Checks those with these hypotheses; each tally has the index of its claim.
+    /// Checks the claims and experiments with these hypotheses that the options include, in cases that satisfy
+    /// the hypotheses. Each tally has the index of its claim.
     fn check(
         &self,
-        given: &[Hypothesis],
-        wanted: &dyn Fn(&str) -> bool,
+        hypotheses: &[Hypothesis],
+        options: &Options,
         cases: &[Option<Case<Exact>>],
     ) -> Vec<(usize, Tally)>;
 }
 
 /// Claims with the same hypotheses, which are checked on the same cases.
 struct Group {
-    given: Vec<Hypothesis>,
+    hypotheses: Vec<Hypothesis>,
     program: Program,
     /// Each claim with its index and its tests.
     claims: Vec<(usize, Vec<(&'static str, Test)>)>,
@@ -228,10 +248,10 @@ struct Group {
 fn groups(claims: &[Statement]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for (index, claim) in claims.iter().enumerate() {
-        let given = claim.stated_hypotheses();
-        let place = groups.iter().position(|group| group.given == given).unwrap_or_else(|| {
+        let hypotheses = claim.stated_hypotheses();
+        let place = groups.iter().position(|group| group.hypotheses == hypotheses).unwrap_or_else(|| {
             let (program, claims) = Default::default();
-            groups.push(Group { given: given.to_vec(), program, claims });
+            groups.push(Group { hypotheses: hypotheses.to_vec(), program, claims });
             groups.len() - 1
         });
         let Group { program, claims, .. } = &mut groups[place];
@@ -272,43 +292,31 @@ impl<D: NumberDomain> Checker<D> {
         experiments: Vec<Experiment<D::Number>>,
     ) -> Self {
         // Experiments check claims about rounding.
-        let can_be_asked = |claim: &&Statement| {
-            !claim.contains_rounding() && (D::EXPONENTIALS || !claim.contains_exponential())
-        };
-        let claims: Vec<Statement> = claims.into_iter().filter(can_be_asked).cloned().collect();
+        let recorded = claims.into_iter().filter(|claim| !claim.contains_rounding());
+        let evaluable = recorded.filter(|claim| D::EXPONENTIALS || !claim.contains_exponential());
+        let claims: Vec<Statement> = evaluable.cloned().collect();
         Checker { domain, groups: groups(&claims), claims, experiments }
     }
 }
 
 impl<D: NumberDomain> ErasedChecker for Checker<D> {
-    fn heads(&self) -> Vec<ClaimKey> {
-        let claim = |c: &Statement| ClaimKey {
-            equation: c.equation(),
-            claim: c.name(),
-            kind: c.kind(),
-            given: c.stated_hypotheses().to_vec(),
-        };
-        let experiment = |e: &Experiment<D::Number>| ClaimKey {
-            equation: e.equation,
-            claim: e.name,
-            kind: "experiment",
-            given: e.given.clone(),
-        };
-        self.claims.iter().map(claim).chain(self.experiments.iter().map(experiment)).collect()
+    fn keys(&self) -> Vec<ClaimKey> {
+        let experiments = self.experiments.iter().map(ClaimKey::of_experiment);
+        self.claims.iter().map(ClaimKey::of_claim).chain(experiments).collect()
     }
 
     fn check(
         &self,
-        given: &[Hypothesis],
-        wanted: &dyn Fn(&str) -> bool,
+        hypotheses: &[Hypothesis],
+        options: &Options,
         cases: &[Option<Case<Exact>>],
     ) -> Vec<(usize, Tally)> {
         let offset = self.claims.len();
-        let group = self.groups.iter().find(|group| group.given == given);
+        let group = self.groups.iter().find(|group| group.hypotheses == hypotheses);
         let mut claims: Vec<_> = group.map_or(&[][..], |group| &group.claims).iter().collect();
-        claims.retain(|(place, _)| wanted(self.claims[*place].equation()));
+        claims.retain(|(place, _)| options.includes(self.claims[*place].equation()));
         let mut experiments: Vec<_> = self.experiments.iter().enumerate().collect();
-        experiments.retain(|(_, e)| e.given == given && wanted(e.equation));
+        experiments.retain(|(_, e)| e.hypotheses == hypotheses && options.includes(e.equation));
         let places = claims.iter().map(|(i, _)| *i).chain(experiments.iter().map(|(i, _)| offset + i));
         let mut tallies: Vec<(usize, Tally)> = places.map(|place| (place, Tally::default())).collect();
         if tallies.is_empty() {

@@ -1,6 +1,6 @@
 //! Export of the chapter to Coq.
 
-use crate::claims::{entries, registry};
+use crate::claims::{Entry, entries, registry};
 use crate::proof::coq::{Development, LocatedClaim};
 use std::sync::LazyLock;
 
@@ -9,8 +9,8 @@ use std::sync::LazyLock;
 pub fn coq() -> &'static Development<'static> {
     static CHAPTER: LazyLock<Development> = LazyLock::new(|| {
         let placed = entries().iter().flat_map(|entry| {
-            let place = |claim| LocatedClaim { claim, section: entry.section, functions: &entry.functions };
-            entry.claims.iter().map(place)
+            let Entry { section, functions, .. } = entry;
+            entry.claims.iter().map(move |claim| LocatedClaim { claim, section, functions })
         });
         Development::new("Contact", registry(), placed).with_file("D_Iterates", include_str!("iterates.v"))
     });

@@ -3,7 +3,7 @@
 //! The book's chapter on floating point derives their bounds. "Exact" always refers to the parameters as
 //! represented in their scalar.
 
-mod laws;
+mod rounding_claims;
 #[cfg(test)]
 mod tests;
 
@@ -48,7 +48,7 @@ pub struct Experiment<T> {
     /// Its statement in words, or `None` for a claim about rounding, which is a formula.
     pub statement: Option<&'static str>,
     /// Its hypotheses.
-    pub given: Vec<Hypothesis>,
+    pub hypotheses: Vec<Hypothesis>,
     /// Its trial.
     pub check: Check<T>,
 }
@@ -58,12 +58,12 @@ fn check<T>(f: impl Fn(&Case<T>) -> Trial + Send + Sync + 'static) -> Check<T> {
 }
 
 macro_rules! list {
-    ($($equation:literal $name:literal $statement:literal [$($given:ident)*] $check:expr;)*) => {
+    ($($equation:literal $name:literal $statement:literal [$($hypothesis:ident)*] $check:expr;)*) => {
         vec![$(Experiment {
             equation: $equation,
             name: $name,
             statement: Some($statement),
-            given: vec![$(hypotheses().$given.clone()),*],
+            hypotheses: vec![$(hypotheses().$hypothesis.clone()),*],
             check: check($check),
         }),*]
     };
@@ -94,7 +94,7 @@ pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
         "note 8" "units-of-solutions" "A change of units by powers of two changes no digit of the solution."
             [stiffness penalty tolerance] |x| units(x, solve_bilateral);
     };
-    laws::laws().into_iter().chain(tried).collect()
+    rounding_claims::experiments().into_iter().chain(tried).collect()
 }
 
 /// Returns the experiments on exact results.
@@ -150,8 +150,8 @@ fn state<T: Scalar + ToExact>(
 }
 
 fn encloses<T: ToExact>(interval: &Interval<T>, x: &Exact) -> bool {
-    let end = |y: &T| y.to_exact();
-    end(&interval.lower).is_ok_and(|y| y <= *x) && end(&interval.upper).is_ok_and(|y| *x <= y)
+    interval.lower.to_exact().is_ok_and(|lower| lower <= *x)
+        && interval.upper.to_exact().is_ok_and(|upper| *x <= upper)
 }
 
 /// Returns the exact deflection and contact force of a method with unilateral contact.
@@ -191,23 +191,31 @@ fn series_root<T: Scalar + Real + ToExact>(
     x: &Case<T>,
     root: impl Fn(&SpringMass<T>, &T, &[T]) -> Result<T, SolveError>,
 ) -> Trial {
-    let higher = [x.eps4.clone()];
     let (Ok(system), Some(eps), Some(eps4)) =
         (x.system.try_map(|y| y.to_exact()), exact(&x.eps), exact(&x.eps4))
     else {
         return Trial::Undecided;
     };
-    let Ok(root) = root(&x.system, &x.eps, &higher) else { return Trial::Undecided };
-    let residual =
-        |p: T| exact(&p).map(|p| penalty::series_residual(&system, &eps, std::slice::from_ref(&eps4), &p));
+    let Ok(root) = root(&x.system, &x.eps, &[x.eps4.clone()]) else { return Trial::Undecided };
     // A zero without a precision has no neighbours.
     if root.is_zero() {
-        return residual(root).map_or(Trial::Undecided, |at| Trial::Decided(at.is_zero()));
+        let at_root = exact_series_residual(&system, &eps, &eps4, &root);
+        return at_root.map_or(Trial::Undecided, |residual| Trial::Decided(residual.is_zero()));
     }
-    match (residual(Real::next_down(root.clone())), residual(Real::next_up(root))) {
-        (Some(below), Some(above)) => Trial::Decided(below < Exact::zero() && Exact::zero() < above),
+    let neighbours = [Real::next_down(root.clone()), Real::next_up(root)];
+    match neighbours.map(|p| exact_series_residual(&system, &eps, &eps4, &p)) {
+        [Some(below), Some(above)] => Trial::Decided(below < Exact::zero() && Exact::zero() < above),
         _ => Trial::Undecided,
     }
+}
+
+fn exact_series_residual<T: ToExact>(
+    system: &SpringMass<Exact>,
+    eps: &Exact,
+    eps4: &Exact,
+    p: &T,
+) -> Option<Exact> {
+    Some(penalty::series_residual(system, eps, std::slice::from_ref(eps4), &exact(p)?))
 }
 
 /// Returns (1.16) with the numbers of a case, for [`STEPS`] steps.
@@ -241,25 +249,15 @@ fn promise<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Tr
 
 /// A change of units by powers of two changes no digit.
 fn units<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Trial {
-    let [length, mass, force] = UNITS;
-    let scale = |y: &T, n: i32| y.clone() * power_of_two::<T>(n);
-    let unit = |var| match var {
-        Var::C | Var::Eps => force - length,
-        Var::M => mass,
-        Var::G => force - mass,
-        Var::L | Var::H | Var::Tol => length,
-        Var::Lambda => force,
-        _ => 0,
-    };
+    let [length, _, force] = UNITS;
     let scaled = x.map(|var, y| scale(y, unit(var)));
     // Subnormal numbers lose digits when they are scaled.
     let comes_back = scaled.map(|var, y| scale(y, -unit(var))) == *x;
-    if !laws::in_range(x) || !laws::in_range(&scaled) || !comes_back {
+    if !rounding_claims::in_range(x) || !rounding_claims::in_range(&scaled) || !comes_back {
         return Trial::Undecided;
     }
-    let solved = |x: &Case<T>| solve(&x.system, &by_augmentation(x));
-    match (solved(x), solved(&scaled)) {
-        (Ok(before), Ok(after)) => Trial::Decided(
+    match [x, &scaled].map(|x| solve(&x.system, &by_augmentation(x))) {
+        [Ok(before), Ok(after)] => Trial::Decided(
             after.outcome == before.outcome
                 && after.augmentations == before.augmentations
                 && after.deflection == scale(&before.deflection, length)
@@ -268,6 +266,23 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Tria
         ),
         _ => Trial::Undecided,
     }
+}
+
+/// Returns the exponent of two of the unit of a quantity.
+fn unit(var: Var) -> i32 {
+    let [length, mass, force] = UNITS;
+    match var {
+        Var::C | Var::Eps => force - length,
+        Var::M => mass,
+        Var::G => force - mass,
+        Var::L | Var::H | Var::Tol => length,
+        Var::Lambda => force,
+        _ => 0,
+    }
+}
+
+fn scale<T: Scalar>(x: &T, n: i32) -> T {
+    x.clone() * power_of_two::<T>(n)
 }
 
 /// Returns (1.16) in rationals, for at most [`STEPS`] steps, and with at most as many digits as right
@@ -283,10 +298,10 @@ fn exact_steps<'a>(
     plane: Plane,
 ) -> impl Iterator<Item = Iterate<Exact>> + use<'a> {
     let SpringMass { c, m, g, l, h } = &x.system;
-    let given: u64 = [c, m, g, l, h, &x.eps, start].into_iter().map(Exact::bit_length).sum();
+    let digits: u64 = [c, m, g, l, h, &x.eps, start].into_iter().map(Exact::bit_length).sum();
     let steps = Augmentation::new(&x.system, &x.eps).with_multiplier(start.clone()).over(plane).take(STEPS);
     steps.take_while(move |step| {
-        step.multiplier.bit_length() + step.deflection.bit_length() <= 8 * (step.k + 2) * given
+        step.multiplier.bit_length() + step.deflection.bit_length() <= 8 * (step.k + 2) * digits
     })
 }
 
@@ -294,13 +309,13 @@ fn exact_steps<'a>(
 fn count(x: &Case<Exact>, plane: Plane, mut steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
     let k = exact_augmentation_count(&x.system, &x.eps, &x.tol, &x.lambda, plane);
     let Some(k) = k.ok().and_then(|k| k.to_usize()).filter(|k| *k < STEPS) else { return Trial::Undecided };
-    let residual = |step: &Iterate<Exact>| match plane {
-        Plane::Unilateral => {
-            augmented::natural_residual(&x.system, &x.eps, &step.multiplier, &step.deflection)
-        }
-        Plane::Bilateral => step.penetration.clone(),
-    };
-    let found = steps.position(|step| augmented::within_tolerance(&residual(&step), &x.tol));
+    let found = steps.position(|Iterate { multiplier, deflection, penetration, .. }| {
+        let residual = match plane {
+            Plane::Unilateral => augmented::natural_residual(&x.system, &x.eps, &multiplier, &deflection),
+            Plane::Bilateral => penetration,
+        };
+        augmented::within_tolerance(&residual, &x.tol)
+    });
     Trial::Decided(found == Some(k))
 }
 
@@ -342,8 +357,11 @@ fn release(x: &Case<Exact>, steps: impl Iterator<Item = Iterate<Exact>>) -> Tria
     // K is 1 for a negative start, otherwise the smallest k for which the closed form is not positive.
     let ratio = augmented::contraction(&x.system, &x.eps);
     let mut decays = successors(Some(Exact::one()), |decay| Some(decay * &ratio)).take(STEPS);
-    let pulls = |decay| augmented::multiplier_after(&x.system, &x.lambda, &decay) <= Exact::zero();
-    let expected = if x.lambda < Exact::zero() { Some(1) } else { decays.position(pulls) };
+    let expected = if x.lambda < Exact::zero() {
+        Some(1)
+    } else {
+        decays.position(|decay| augmented::multiplier_after(&x.system, &x.lambda, &decay) <= Exact::zero())
+    };
     let free = structure::deflection(&x.system);
     let hangs = steps.iter().skip(first.saturating_sub(1)).all(|step| step.deflection == free);
     Trial::Decided(Some(first) == expected && hangs)

@@ -5,7 +5,7 @@ mod json;
 
 use crate::claims::{registry, statements};
 use crate::formula::statement::minimum_precision;
-use crate::formula::{Hypothesis, Registry, Statement};
+use crate::formula::{Registry, Statement};
 use crate::proof::mutation::{
     self, DroppedHypothesis, MutationReport, find_detected_mutants, test_mutations,
 };
@@ -20,7 +20,7 @@ pub struct ProofAttempt {
     /// The claim.
     pub statement: Statement,
     /// The outcome.
-    pub answer: ProofOutcome,
+    pub outcome: ProofOutcome,
     /// Time of the attempt.
     pub time: Duration,
 }
@@ -38,14 +38,14 @@ impl ProofAttempt {
     /// Proves a statement, or tries to refute it.
     pub fn of(statement: Statement) -> Self {
         let start = Instant::now();
-        let answer = match prove(&statement) {
+        let outcome = match prove(&statement) {
             Ok(proof) => ProofOutcome::Proof(proof.into()),
             Err(error) => {
                 let reason = ProofPrinter::new(registry()).describe(&statement, &error);
                 ProofOutcome::None(reason, refute(&statement))
             }
         };
-        ProofAttempt { statement, answer, time: start.elapsed() }
+        ProofAttempt { statement, outcome, time: start.elapsed() }
     }
 
     /// Returns its hypotheses as text.
@@ -55,7 +55,7 @@ impl ProofAttempt {
 
     /// Returns `proved`, `refuted` or `unknown`.
     pub fn status(&self) -> &'static str {
-        match &self.answer {
+        match &self.outcome {
             ProofOutcome::Proof(_) => "proved",
             ProofOutcome::None(_, Some(_)) => "refuted",
             ProofOutcome::None(_, None) => "unknown",
@@ -79,7 +79,7 @@ pub struct Proofs {
 /// Numbers of proofs and mutations by outcome.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Summary {
+pub struct ProofSummary {
     /// All claims.
     pub claims: usize,
     /// Proved claims.
@@ -111,7 +111,7 @@ fn prove_statements(statements: &[Statement], test: fn(&[Statement], &Registry) 
     let start = Instant::now();
     let claims: Vec<_> = statements.par_iter().cloned().map(ProofAttempt::of).collect();
     let proof_time = start.elapsed();
-    let all_proved = claims.iter().all(|claim| matches!(claim.answer, ProofOutcome::Proof(_)));
+    let all_proved = claims.iter().all(|claim| matches!(claim.outcome, ProofOutcome::Proof(_)));
     let mutation = if all_proved { test(statements, registry()) } else { MutationReport::default() };
     Proofs { claims, mutation, proof_time, total_time: start.elapsed() }
 }
@@ -120,7 +120,7 @@ impl Proofs {
     /// Returns `true` if every claim is proved, every hypothesis needed, and every mutant detected, and there
     /// is at least one claim.
     pub fn hold(&self) -> bool {
-        let Summary { claims, proved, controls, .. } = self.summary();
+        let ProofSummary { claims, proved, controls, .. } = self.summary();
         let is_redundant = self.mutation.redundant_hypotheses().next().is_some();
         0 < proved && claims == proved && controls.undetected == 0 && !is_redundant
     }
@@ -137,23 +137,14 @@ impl Proofs {
     }
 
     /// Returns the summary.
-    pub fn summary(&self) -> Summary {
-        let with = |status| self.claims.iter().filter(|claim| claim.status() == status).count();
+    pub fn summary(&self) -> ProofSummary {
+        let [proved, refuted, unknown] = ["proved", "refuted", "unknown"]
+            .map(|status| self.claims.iter().filter(|claim| claim.status() == status).count());
         // The minimum precision is not counted.
-        let said = |given: &&Hypothesis| **given != minimum_precision();
-        Summary {
-            claims: self.claims.len(),
-            proved: with("proved"),
-            refuted: with("refuted"),
-            unknown: with("unknown"),
-            hypotheses: self
-                .claims
-                .iter()
-                .flat_map(|claim| claim.statement.hypotheses())
-                .filter(said)
-                .count(),
-            controls: self.mutation.summary(),
-        }
+        let hypotheses = self.claims.iter().flat_map(|claim| claim.statement.hypotheses());
+        let hypotheses = hypotheses.filter(|hypothesis| **hypothesis != minimum_precision()).count();
+        let (claims, controls) = (self.claims.len(), self.mutation.summary());
+        ProofSummary { claims, proved, refuted, unknown, hypotheses, controls }
     }
 }
 

@@ -25,7 +25,7 @@ fn claim(name: &'static str, proposition: Proposition) -> Statement {
 }
 
 fn experiment<T: 'static>(name: &'static str, check: fn(&Case<T>) -> Trial) -> Experiment<T> {
-    Experiment { equation: "1.1", name, statement: None, given: vec![], check: Arc::new(check) }
+    Experiment { equation: "1.1", name, statement: None, hypotheses: vec![], check: Arc::new(check) }
 }
 
 fn x(name: &'static str) -> Tree {
@@ -57,11 +57,11 @@ fn exactly(claims: &[Statement], experiments: Vec<Experiment<Exact>>) -> Boxed {
     boxed(NumberSystem::Exact, Rationals::unrounded(), claims, experiments)
 }
 
-fn report(checkers: &[Boxed], cases: u64) -> Report {
+fn report(checkers: &[Boxed], cases: u64) -> VerificationReport {
     run(checkers, Vec::new(), &options(cases), &|_, _| ())
 }
 
-fn row<'a>(report: &'a Report, name: &str, scalar: NumberSystem) -> &'a Row {
+fn row<'a>(report: &'a VerificationReport, name: &str, scalar: NumberSystem) -> &'a ClaimResult {
     report.rows.iter().find(|row| row.claim == name && row.scalar == Some(scalar)).unwrap()
 }
 
@@ -136,7 +136,7 @@ fn a_claim_can_fail_in_one_number_system_alone() {
         let failed = report.rows.iter().filter(|row| row.status == Status::Failed);
         let failed: Vec<_> = failed.map(|row| (row.claim, row.scalar)).collect();
         assert_eq!(failed, [("zero", Some(wrong))]);
-        let Summary { claims, proved, held, undecided, failed } = report.summary();
+        let VerificationSummary { claims, proved, held, undecided, failed } = report.summary();
         assert_eq!([claims, proved, held, undecided, failed], [8, 0, 7, 0, 1]);
         assert!(!report.holds() && report.is_decided());
     }
@@ -184,10 +184,10 @@ fn a_claim_that_was_never_tested_is_undecided() {
     let claims = [skipped, kink, members];
     let experiments = || {
         let skipped = experiment("skipped trial", |_| Trial::Decided(false));
-        vec![Experiment { given: never.clone(), ..skipped }]
+        vec![Experiment { hypotheses: never.clone(), ..skipped }]
     };
     let of = |cases| report(&[exactly(&claims, experiments())], cases);
-    let untried = |report: Report, cases| {
+    let untried = |report: VerificationReport, cases| {
         assert_eq!(report.rows.len(), 4);
         for row in &report.rows {
             let found = (row.status, row.decided, row.undecided);
@@ -359,7 +359,7 @@ fn rows_are_grouped_by_claim_in_the_order_of_the_chapter() {
 #[test]
 fn json_contains_the_details_of_a_failure() {
     let case = Case::of(|_| "7/3".parse().unwrap());
-    let row = |status, counterexample: Option<Case<Exact>>| Row {
+    let row = |status, counterexample: Option<Case<Exact>>| ClaimResult {
         equation: "1.13",
         claim: "rate",
         kind: "equal",
@@ -371,16 +371,16 @@ fn json_contains_the_details_of_a_failure() {
         worst: counterexample.as_ref().map(|_| (2.5, "1/8".to_string())),
         counterexample,
     };
-    let held = || Row { equation: "1.14", ..row(Status::Held, None) };
-    let proved = || Row { equation: "1.15", scalar: None, ..row(Status::Proved, None) };
+    let held = || ClaimResult { equation: "1.14", ..row(Status::Held, None) };
+    let proved = || ClaimResult { equation: "1.15", scalar: None, ..row(Status::Proved, None) };
     let rows = vec![row(Status::Failed, Some(case)), row(Status::Undecided, None)];
     let counted = [rows.clone(), vec![held(), held(), held()], vec![proved(), proved()]].concat();
-    let counted = Report { rows: counted, shared: Vec::new() };
+    let counted = VerificationReport { rows: counted, shared: Vec::new() };
     assert_eq!(
         serde_json::to_value(&counted).unwrap()["summary"],
         serde_json::json!({"claims": 7, "proved": 2, "held": 3, "undecided": 1, "failed": 1})
     );
-    let report = Report { rows, shared: vec!["structure::deflection"] };
+    let report = VerificationReport { rows, shared: vec!["structure::deflection"] };
     let coordinates: std::collections::BTreeMap<_, _> =
         crate::claims::Var::ALL.iter().map(|var| (var.symbol(), "7/3")).collect();
     let expected = serde_json::json!({
@@ -405,7 +405,7 @@ fn json_contains_the_details_of_a_failure() {
 #[test]
 fn counterexamples_of_laws_have_the_precision_of_the_number_system() {
     let law = claims().find(|claim| claim.contains_rounding()).unwrap();
-    let rounded = Row {
+    let rounded = ClaimResult {
         equation: law.equation(),
         claim: law.name(),
         kind: "bound",
@@ -418,7 +418,7 @@ fn counterexamples_of_laws_have_the_precision_of_the_number_system() {
         counterexample: Some(Case::of(|_| Exact::from(-3))),
     };
     let symbols = [Var::Bits.symbol(), registry().symbols_of(law.trees())[0]];
-    let of = |row: &Row| symbols.map(|symbol| row.point().unwrap().at(symbol));
+    let of = |row: &ClaimResult| symbols.map(|symbol| row.point().unwrap().at(symbol));
     assert_eq!(of(&rounded), [1 << 24, -3].map(Exact::from));
-    assert_eq!(of(&Row { scalar: None, ..rounded }), [-3, -3].map(Exact::from));
+    assert_eq!(of(&ClaimResult { scalar: None, ..rounded }), [-3, -3].map(Exact::from));
 }

@@ -10,7 +10,7 @@ use spring_mass_contact::{
     formula::Hypothesis,
     number::NumberSystem,
     proof::render::ProofPrinter,
-    verify::{Options, Row, Status, exact_experiments, float_experiments, verify},
+    verify::{ClaimResult, Options, Status, exact_experiments, float_experiments, verify},
 };
 use std::{collections::HashMap, fmt::Write, sync::LazyLock};
 
@@ -19,7 +19,7 @@ const CASES: u64 = 50;
 
 /// Results of all claims.
 pub struct Claims {
-    rows: Vec<Row>,
+    rows: Vec<ClaimResult>,
 }
 
 impl Claims {
@@ -43,7 +43,7 @@ impl Claims {
         }
         // Tested claims are not counted here; the page of claims lists the number systems in which they hold.
         let fraction = |scalar| {
-            let held = |row: &&Row| row.scalar == scalar && row.status == Status::Held;
+            let held = |row: &&ClaimResult| row.scalar == scalar && row.status == Status::Held;
             let held = proved.iter().filter(|rows| rows.iter().any(held)).count();
             (held < proved.len()).then(|| format!("{held} of {count}"))
         };
@@ -60,7 +60,7 @@ impl Claims {
     }
 
     /// Returns the results of the claims about an entry.
-    fn rows(&self, entry: &Entry) -> Vec<&Row> {
+    fn rows(&self, entry: &Entry) -> Vec<&ClaimResult> {
         self.rows.iter().filter(|row| row.equation == entry.equation).collect()
     }
 
@@ -111,8 +111,9 @@ type ClaimText = (String, Vec<String>);
 /// Returns the texts of all claims by equation number and claim name.
 fn claim_texts() -> HashMap<(&'static str, &'static str), ClaimText> {
     let format = |hypotheses: &[Hypothesis]| registry().format_hypotheses(hypotheses);
-    let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name, e.statement, e.given));
-    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name, e.statement, e.given));
+    let floats =
+        float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name, e.statement, e.hypotheses));
+    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name, e.statement, e.hypotheses));
     let tested = floats.chain(rationals).filter_map(|(equation, name, statement, hypotheses)| {
         Some(((equation, name), (with_indices(statement?), format(&hypotheses))))
     });
@@ -132,14 +133,14 @@ fn claim_count(count: usize) -> String {
 }
 
 /// Returns the claims with a status in a number system, or in the proofs.
-fn with_status<'r>(rows: &[&'r Row], scalar: Option<NumberSystem>, status: Status) -> Vec<&'r str> {
+fn with_status<'r>(rows: &[&'r ClaimResult], scalar: Option<NumberSystem>, status: Status) -> Vec<&'r str> {
     let found = rows.iter().filter(|row| row.scalar == scalar && row.status == status);
     found.map(|row| row.claim).collect()
 }
 
 /// Returns the claims that fail or are undecided, by name and marked as open: those that are not proved, then those
 /// in each number system.
-fn open_claims(rows: &[&Row]) -> Vec<String> {
+fn open_claims(rows: &[&ClaimResult]) -> Vec<String> {
     let mut found = vec![("not proved".to_string(), with_status(rows, None, Status::Failed))];
     for scalar in Options::default().scalars {
         for (problem, status) in [("wrong", Status::Failed), ("undecided", Status::Undecided)] {
@@ -158,7 +159,11 @@ fn open_claims(rows: &[&Row]) -> Vec<String> {
 /// in which they hold.
 ///
 /// `part` returns the text in parentheses after a number system in which only some claims or cases were decided.
-fn outcome(rows: &[&Row], proved: &str, part: impl Fn(Option<NumberSystem>) -> Option<String>) -> String {
+fn outcome(
+    rows: &[&ClaimResult],
+    proved: &str,
+    part: impl Fn(Option<NumberSystem>) -> Option<String>,
+) -> String {
     let has = |scalar, status| !with_status(rows, scalar, status).is_empty();
     let mut parts = Vec::new();
     if !has(None, Status::Failed) {
@@ -249,8 +254,8 @@ mod tests {
     }
 
     /// Returns a row of the first claim about (1.13).
-    fn row(scalar: Option<NumberSystem>, status: Status) -> Row {
-        Row {
+    fn row(scalar: Option<NumberSystem>, status: Status) -> ClaimResult {
+        ClaimResult {
             equation: "1.13",
             claim: "rate",
             kind: "equal",
@@ -279,8 +284,8 @@ mod tests {
     #[test]
     fn status_counts_claims_held_per_number_system() {
         let [f64, exact] = [NumberSystem::F64, NumberSystem::Exact].map(Some);
-        let limit = |scalar, status| Row { claim: "limit", ..row(scalar, status) };
-        let sign = |scalar| Row { claim: "sign", ..row(scalar, Status::Held) };
+        let limit = |scalar, status| ClaimResult { claim: "limit", ..row(scalar, status) };
+        let sign = |scalar| ClaimResult { claim: "sign", ..row(scalar, Status::Held) };
         let rows = vec![
             row(None, Status::Proved),
             row(f64, Status::Held),
@@ -311,7 +316,7 @@ mod tests {
         let rows = [row(None, Status::Failed), row(Some(NumberSystem::Mpfr(256)), Status::Held)];
         let status = outcome(&rows.each_ref(), "proved", all);
         assert_eq!(status, "<strong class=\"open\">not proved: rate</strong> · held in 256 bits");
-        let rows = [row(None, Status::Proved), Row { claim: "limit", ..row(None, Status::Failed) }];
+        let rows = [row(None, Status::Proved), ClaimResult { claim: "limit", ..row(None, Status::Failed) }];
         assert_eq!(
             outcome(&rows.each_ref(), "proved", all),
             "<strong class=\"open\">not proved: limit</strong>"

@@ -123,10 +123,9 @@ fn round_to_digits(x: &Exact, digits: usize, round: Round) -> Exact {
 fn next_above(x: &Exact, digits: usize) -> Exact {
     let rounded_up = round_to_digits(x, digits, Round::Up);
     if rounded_up > *x {
-        rounded_up
-    } else {
-        round_to_digits(&(x * Exact::from(1001) / Exact::from(1000)), digits, Round::Up)
+        return rounded_up;
     }
+    round_to_digits(&(x * Exact::from(1001) / Exact::from(1000)), digits, Round::Up)
 }
 
 /// Returns the smallest penalty, within a hundredth, that needs at most [`MAX_AUGMENTATIONS`], starting the
@@ -179,24 +178,18 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
     fn recommend_penalty_and_augmentation(&self) -> Vec<Recommendation<T>> {
         // If the penalty method does not meet the tolerance, the augmentation is not guaranteed to meet it.
         let Some(range) = self.penalty_range() else { return Vec::new() };
-        let every_penalty_suffices = range.min.is_zero();
-        let eps = if every_penalty_suffices {
-            Exact::from(10) * &self.exact_system.c
-        } else {
-            next_above(&range.min, 2)
-        };
+        let all_suffice = range.min.is_zero();
+        let eps =
+            if all_suffice { Exact::from(10) * &self.exact_system.c } else { next_above(&range.min, 2) };
         let penalty = self.recommend(&range, &eps, |penalty| Method::Penalty { penalty });
-        let augmentation =
-            self.is_above_floor.then(|| self.recommend_augmentation(eps, every_penalty_suffices));
+        let augmentation = self.is_above_floor.then(|| self.recommend_augmentation(eps, all_suffice));
         [penalty, augmentation.flatten()].into_iter().flatten().collect()
     }
 
     /// Returns the penalties for which the penalty method meets the tolerance, if there are any.
     fn penalty_range(&self) -> Option<PenaltyRange> {
         match &self.arithmetic {
-            Arithmetic::Exact => {
-                Some(PenaltyRange::without_rounding(&self.exact_system, &self.exact_tolerance))
-            }
+            Arithmetic::Exact => Some(PenaltyRange::exact(&self.exact_system, &self.exact_tolerance)),
             Arithmetic::Rounded(laws) => laws.penalty_range(&self.exact_tolerance),
             Arithmetic::Separated => Some(PenaltyRange { min: Exact::zero(), max: None }),
         }
@@ -205,11 +198,7 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
     /// Returns the augmentation with the largest penalty that preserves the digits of the multiplier, but not
     /// larger than `direct_eps`, which needs no augmentation. If it is too small, returns that with the
     /// smallest sufficient penalty.
-    fn recommend_augmentation(
-        &self,
-        direct_eps: Exact,
-        every_penalty_suffices: bool,
-    ) -> Option<Recommendation<T>> {
+    fn recommend_augmentation(&self, direct_eps: Exact, all_suffice: bool) -> Option<Recommendation<T>> {
         let max = match &self.arithmetic {
             Arithmetic::Rounded(laws) => laws.max_penalty_for_multiplier(&self.exact_tolerance),
             Arithmetic::Exact | Arithmetic::Separated => None,
@@ -219,7 +208,7 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
             Some(_) | None => direct_eps,
         };
         let min = match &self.arithmetic {
-            Arithmetic::Exact if every_penalty_suffices => Exact::zero(),
+            Arithmetic::Exact if all_suffice => Exact::zero(),
             Arithmetic::Exact => min_penalty_within_limit(&eps, |eps| self.exact_count(eps)),
             Arithmetic::Rounded(laws) => min_penalty_within_limit(&eps, |eps| {
                 laws.max_augmentations(eps, &self.exact_tolerance).ok()?

@@ -158,9 +158,9 @@ impl<T: ExactText> fmt::Display for Advice<T> {
 /// ```
 impl<T: ExactText> fmt::Display for Kkt<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let few = |x: &T| x.to_exact().map_or_else(|_| x.text(), |x| x.decimal(DIGITS, Round::Nearest));
         let [stationarity, primal, dual, complementarity] =
-            [&self.stationarity, &self.primal, &self.dual, &self.complementarity].map(few);
+            [&self.stationarity, &self.primal, &self.dual, &self.complementarity]
+                .map(|x| x.to_exact().map_or_else(|_| x.text(), |x| x.decimal(DIGITS, Round::Nearest)));
         write!(f, "stationarity {stationarity} N, primal {primal} m, ")?;
         write!(f, "dual {dual} N, complementarity {complementarity} J")
     }

@@ -37,9 +37,6 @@ impl<T: ExactText> serde::Serialize for Interval<T> {
 
 by_ball! {
     Mpfr, |plus: [(&Mpfr, &Mpfr); 2], minus: (&Mpfr, &Mpfr)| {
-        // Non-finite numbers are refused before a sign is computed.
-        let exact = |x: &Mpfr| x.to_exact().unwrap_or_else(|_| Exact::zero());
-        let product = |(a, b): (&Mpfr, &Mpfr)| exact(a) * exact(b);
         (product(plus[0]) + product(plus[1])).cmp(&product(minus))
     },
     fn power(x: &Ball<Mpfr>, k: u64) -> Option<Ball<Mpfr>> {
@@ -52,6 +49,12 @@ by_ball! {
         let constant = self.precision().is_none().then(|| self.to_exact().ok()).flatten();
         constant.map_or(0, |x| x.bit_length())
     };
+}
+
+/// Returns the exact product of finite numbers. Others are refused before a sign is computed.
+fn product((a, b): (&Mpfr, &Mpfr)) -> Exact {
+    let [x, y] = [a, b].map(|x| x.to_exact().unwrap_or_else(|_| Exact::zero()));
+    x * y
 }
 
 impl Scalar for Exact {

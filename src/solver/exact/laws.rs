@@ -60,7 +60,7 @@ pub fn check_scalar_laws<T: Scalar<Enclosure = E>, E: PositivePart>(
     samples: &[T],
     exact: impl Fn(&T) -> Exact,
 ) -> Result<(), LawViolation> {
-    let laws = Laws { exact: &exact };
+    let laws = LawChecker { exact: &exact };
     let known: Vec<_> = samples.iter().map(|x| Sample { number: x, exact: (laws.exact)(x) }).collect();
     for a in &known {
         laws.of_one(a)?;
@@ -80,20 +80,19 @@ struct Sample<'a, T> {
     exact: Exact,
 }
 
-struct Laws<'a, T> {
+struct LawChecker<'a, T> {
     exact: &'a dyn Fn(&T) -> Exact,
 }
 
-impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
+impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
     fn of_one(&self, a: &Sample<T>) -> Result<(), LawViolation> {
         let Sample { number, exact } = a;
-        let text = |what: &str| format!("{what} {number:?}");
         hold(number.is_finite(), Law::Finite, || format!("{number:?}, which is {}", written(exact)))?;
         let (zero, right) = (number.is_zero(), exact.is_zero());
         hold(zero == right, Law::Order, || format!("is_zero of {number:?}: {zero}, expected {right}"))?;
-        self.is(&number.positive_part(), &exact.positive_part(), || text("⟨·⟩ of"))?;
-        self.is(&number.abs(), &exact.abs(), || text("|·| of"))?;
-        self.encloses(&number.enclose(), exact, Law::Enclose, || text("the enclosure of"))?;
+        self.is(&number.positive_part(), &exact.positive_part(), || format!("⟨·⟩ of {number:?}"))?;
+        self.is(&number.abs(), &exact.abs(), || format!("|·| of {number:?}"))?;
+        self.encloses(&number.enclose(), exact, Law::Enclose, || format!("the enclosure of {number:?}"))?;
         let mut product = Exact::one();
         for k in 0..=9 {
             if let Some(power) = T::power(&number.enclose(), k) {
@@ -105,36 +104,35 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
     }
 
     fn of_two(&self, a: &Sample<T>, b: &Sample<T>) -> Result<(), LawViolation> {
-        let text = |what: &str| format!("{:?} {what} {:?}", a.number, b.number);
-        let (order, right) = (a.number.partial_cmp(b.number), a.exact.cmp(&b.exact));
+        let (x, y) = (a.number, b.number);
+        let (order, right) = (x.partial_cmp(y), a.exact.cmp(&b.exact));
         hold(order == Some(right), Law::Order, || {
-            format!("{}: {order:?}, expected {right:?}", text("compared with"))
+            format!("{x:?} compared with {y:?}: {order:?}, expected {right:?}")
         })?;
-        self.is(&a.number.min(b.number), &PositivePart::min(&a.exact, &b.exact), || text("min"))
+        self.is(&x.min(y), &PositivePart::min(&a.exact, &b.exact), || format!("{x:?} min {y:?}"))
     }
 
     fn of_three(&self, a: &Sample<T>, b: &Sample<T>, c: &Sample<T>) -> Result<(), LawViolation> {
         let numbers = [a, b, c].map(|x| x.number);
-        let text = |what: &str| {
-            let [a, b, c] = numbers;
-            format!("{what} with a = {a:?}, b = {b:?}, c = {c:?}")
-        };
         let divisors = [!c.exact.is_zero(), !(&a.exact + &b.exact).is_zero()];
         let enclosed = results(&numbers.map(T::enclose), divisors);
         let exact = results(&[&a.exact, &b.exact, &c.exact].map(Exact::clone), divisors);
         for ((what, enclosure), (_, exact)) in enclosed.iter().zip(&exact) {
-            self.encloses(enclosure, exact, Law::Interval, || text(what))?;
+            self.encloses(enclosure, exact, Law::Interval, || {
+                let [a, b, c] = numbers;
+                format!("{what} with a = {a:?}, b = {b:?}, c = {c:?}")
+            })?;
         }
         // b times the rounding error of a + c, with two unrelated products.
         let sum = a.number + c.number;
         for (plus, minus) in [([(a, b), (b, c)], None), ([(a, b), (c, a)], Some((b, c)))] {
-            let exactly = |(x, y): (&Sample<T>, &Sample<T>)| &x.exact * &y.exact;
             let (last, taken) = match minus {
-                Some((x, y)) => ((x.number, y.number), exactly((x, y))),
+                Some((x, y)) => ((x.number, y.number), &x.exact * &y.exact),
                 None if sum.is_finite() => ((b.number, &sum), &b.exact * (self.exact)(&sum)),
                 None => continue,
             };
-            let right = (exactly(plus[0]) + exactly(plus[1])).cmp(&taken);
+            let [first, second] = plus.map(|(x, y)| &x.exact * &y.exact);
+            let right = (first + second).cmp(&taken);
             let found = T::sign_of_sum(plus.map(|(x, y)| (x.number, y.number)), last);
             hold(found == right, Law::SignOfSum, || {
                 let [(a, b), (c, d)] = plus.map(|(x, y)| (x.number, y.number));
@@ -160,14 +158,19 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> Laws<'_, T> {
     ) -> Result<(), LawViolation> {
         let Interval { lower, upper } = T::interval(enclosure);
         let magnitude = T::magnitude(enclosure);
-        let bound = |end: &T, holds: &dyn Fn(Exact) -> bool| !end.is_finite() || holds((self.exact)(end));
         let with = |what: String| format!("{}: {what}, of {}", by(), written(x));
-        let within = bound(&lower, &|end| end <= *x) && bound(&upper, &|end| *x <= end);
+        let within = self.finite_value(&lower).is_none_or(|lower| lower <= *x)
+            && self.finite_value(&upper).is_none_or(|upper| *x <= upper);
         hold(within, law, || with(format!("between {lower:?} and {upper:?}")))?;
-        let enough = bound(&magnitude, &|size| x.abs() <= size);
-        hold(enough, Law::Magnitude, || with(format!("magnitude {magnitude:?}")))?;
+        let is_bounded = self.finite_value(&magnitude).is_none_or(|magnitude| x.abs() <= magnitude);
+        hold(is_bounded, Law::Magnitude, || with(format!("magnitude {magnitude:?}")))?;
         let (sign, right) = (T::sign(enclosure), x.cmp(&Exact::zero()));
         hold(sign.is_none_or(|sign| sign == right), Law::Sign, || with(format!("sign {sign:?}")))
+    }
+
+    /// Returns the value of a bound; `None` if it is not finite and so violates no law.
+    fn finite_value(&self, bound: &T) -> Option<Exact> {
+        bound.is_finite().then(|| (self.exact)(bound))
     }
 }
 

@@ -38,7 +38,7 @@ pub(super) struct PenaltyRange {
 
 impl PenaltyRange {
     /// Returns the range of the penalty method without rounding: ε ≥ R / tol − c.
-    pub(super) fn without_rounding(system: &SpringMass<Exact>, tolerance: &Exact) -> Self {
+    pub(super) fn exact(system: &SpringMass<Exact>, tolerance: &Exact) -> Self {
         PenaltyRange { min: penalty::penalty_for(system, tolerance).positive_part(), max: None }
     }
 }

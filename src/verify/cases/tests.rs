@@ -21,8 +21,8 @@ fn groups() -> BTreeMap<String, Vec<Hypothesis>> {
     let claims =
         claims().filter(|claim| !claim.contains_rounding()).map(|claim| claim.stated_hypotheses().to_vec());
     let floats = float_experiments::<f64>().into_iter();
-    let rationals = exact_experiments().into_iter().map(|experiment| experiment.given);
-    let experiments = floats.map(|experiment| experiment.given).chain(rationals);
+    let rationals = exact_experiments().into_iter().map(|experiment| experiment.hypotheses);
+    let experiments = floats.map(|experiment| experiment.hypotheses).chain(rationals);
     let text = |given: &[Hypothesis]| given.iter().map(|h| format!("{h}, ")).collect();
     claims.chain(experiments).map(|given| (text(&given), given)).collect()
 }
@@ -149,14 +149,14 @@ fn grazing_cases_have_zero_positive_and_negative_reactions() {
     assert_eq!(signs.len(), 3);
 }
 
-fn draw(profile: Profile) -> Draw {
-    Draw { random: Rand64::new(5), profile, small: Small::Products }
+fn sampler(profile: Profile) -> CaseSampler {
+    CaseSampler { random: Rand64::new(5), profile, small: Small::Products }
 }
 
 #[test]
 fn both_ends_of_a_range_are_sampled() {
-    let mut draw = draw(Profile::Plain);
-    let found: BTreeSet<_> = (0..100).map(|_| draw.between(-1, 2)).collect();
+    let mut sampler = sampler(Profile::Plain);
+    let found: BTreeSet<_> = (0..100).map(|_| sampler.between(-1, 2)).collect();
     assert_eq!(found, BTreeSet::from([-1, 0, 1, 2]));
 }
 
@@ -171,8 +171,8 @@ fn numbers_have_the_magnitude_and_precision_of_their_profile() {
         (Profile::Huge, 5, 36, 11),
         (Profile::Tiny, -45, -14, 11),
     ] {
-        let mut draw = draw(profile);
-        let all: Vec<_> = (0..10_000).map(|_| draw.magnitude(Var::C)).collect();
+        let mut sampler = sampler(profile);
+        let all: Vec<_> = (0..10_000).map(|_| sampler.magnitude(Var::C)).collect();
         let range = Exact::power_of_two(low)..=Exact::power_of_two(high);
         assert!(all.iter().all(|x| range.contains(x)), "{profile:?}");
         let fits = |bits| all.iter().filter(|x| x.round_to_bits(bits).as_ref() == Some(x)).count();
@@ -185,8 +185,8 @@ fn numbers_have_the_magnitude_and_precision_of_their_profile() {
 /// Wrong signs and zeros are sampled, too, but rarely: they are adjusted to hypotheses.
 #[test]
 fn all_signs_are_sampled() {
-    let mut draw = draw(Profile::Tiny);
-    let all: Vec<_> = (0..400).map(|_| draw.raw()).collect();
+    let mut sampler = sampler(Profile::Tiny);
+    let all: Vec<_> = (0..400).map(|_| sampler.raw()).collect();
     for var in Var::ALL {
         let sign = |case: &Case<Exact>| case.get(*var).cmp(&Exact::zero());
         let [less, equal, greater] = [Ordering::Less, Ordering::Equal, Ordering::Greater]
@@ -214,14 +214,14 @@ fn all_signs_are_sampled() {
 
 #[test]
 fn reactions_next_to_grazing_are_a_unit_in_the_last_place() {
-    let mut draw = draw(Profile::Grazing);
+    let mut sampler = sampler(Profile::Grazing);
     // c Δ = 3 · 5
     let case = Case::of(|var| match var {
         Var::C => Exact::from(3),
         Var::H => Exact::from(5),
         _ => Exact::zero(),
     });
-    let found: HashSet<_> = (0..100).map(|_| draw.next_to_grazing(&case).as_rational().clone()).collect();
+    let found: HashSet<_> = (0..100).map(|_| sampler.next_to_grazing(&case).as_rational().clone()).collect();
     let units = [Exact::zero(), Exact::power_of_two(-23), Exact::power_of_two(-52)];
     let of = |unit: &Exact| [unit * Exact::from(15), -(unit * Exact::from(15))];
     let expected: HashSet<_> = units.iter().flat_map(of).map(|x| x.as_rational().clone()).collect();
@@ -230,8 +230,8 @@ fn reactions_next_to_grazing_are_a_unit_in_the_last_place() {
 
 #[test]
 fn stiff_cases_have_large_and_small_ratios() {
-    let mut draw = draw(Profile::Stiff);
-    let ratios = (0..200).map(|_| draw.raw()).map(|case| case.eps / case.system.c.abs());
+    let mut sampler = sampler(Profile::Stiff);
+    let ratios = (0..200).map(|_| sampler.raw()).map(|case| case.eps / case.system.c.abs());
     let ratios: Vec<_> = ratios.collect();
     let least = Exact::power_of_two(-60)..Exact::power_of_two(-50);
     let most = Exact::power_of_two(50)..=Exact::power_of_two(60);
@@ -274,12 +274,12 @@ fn taken<T: crate::solver::Scalar + Real + ToExact>(
 ) -> BTreeMap<String, [usize; 2]> {
     let mut found = BTreeMap::new();
     for index in 0..300 {
-        let mut draw = Draw { random: Rand64::new(index), profile, small: Small::Products };
-        let mut case = draw.raw();
+        let mut sampler = CaseSampler { random: Rand64::new(index), profile, small: Small::Products };
+        let mut case = sampler.raw();
         for var in [Var::C, Var::M, Var::Eps] {
             *case.get_mut(var) = case.get(var).abs();
         }
-        let [taken, all] = found.entry(format!("{:?}", draw.small)).or_insert([0, 0]);
+        let [taken, all] = found.entry(format!("{:?}", sampler.small)).or_insert([0, 0]);
         *all += 1;
         let Ok(read) = Case::try_of(|var| like.round_from_exact(case.get(var)).map_err(drop)) else {
             continue;
@@ -301,10 +301,10 @@ fn other_quantities_compensate_for_subnormal_ones() {
         [(Profile::SubnormalSingle, -149, -126), (Profile::SubnormalDouble, -1074, -1022)]
     {
         for small in Small::ALL {
-            let mut draw = Draw { small, ..draw(profile) };
+            let mut sampler = CaseSampler { small, ..sampler(profile) };
             let mut orders = Vec::new();
             for _ in 0..99 {
-                let case = Case::of(|var| draw.magnitude(var));
+                let case = Case::of(|var| sampler.magnitude(var));
                 for x in Var::ALL.iter().filter(|var| small.shift(**var).is_none()).map(|var| case.get(*var))
                 {
                     let units = x / Exact::power_of_two(smallest + 2);

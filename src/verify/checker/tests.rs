@@ -19,9 +19,9 @@ fn int(n: i32) -> Tree {
 
 /// Returns the tally of a claim for one case in a number system.
 fn tally<D: NumberDomain>(domain: D, case: Case<Exact>, claim: Statement) -> Tally {
-    let given = claim.stated_hypotheses().to_vec();
+    let hypotheses = claim.stated_hypotheses().to_vec();
     let checker = Checker::with(domain, [&claim], Vec::new());
-    let mut tallies = checker.check(&given, &|_| true, &[Some(case)]);
+    let mut tallies = checker.check(&hypotheses, &Options::default(), &[Some(case)]);
     tallies.remove(0).1
 }
 
@@ -97,20 +97,23 @@ fn division_by_zero_fails_and_division_by_a_ball_around_zero_is_undecided() {
 }
 
 #[test]
-fn an_error_beyond_a_bound_of_zero_is_an_infinite_share() {
+fn the_ratio_of_an_error_to_a_bound_of_zero_is_infinite() {
     // Constants of MPFR are exact, and so is their difference.
     let [two, three] = [2, 3].map(Ball::<Mpfr>::int);
-    let share = |x, y| {
-        let [error, bound] = Balls::<Mpfr>::difference(x, y);
-        share(&error, &bound)
-    };
-    assert_eq!((share(&two, &three), share(&two, &two)), (f64::INFINITY, 0.0));
+    let ratios = [&three, &two].map(|other| {
+        let [error, bound] = Balls::<Mpfr>::difference(&two, other);
+        ratio(&error, &bound)
+    });
+    assert_eq!(ratios, [f64::INFINITY, 0.0]);
 }
 
 #[test]
 fn one_failed_case_fails_a_claim_and_no_decided_case_leaves_it_undecided() {
     let row = |tally: Tally| {
-        tally.into_row(ClaimKey { equation: "1.1", claim: "claim", kind: "equal", given: vec![] }, None)
+        tally.into_result(
+            ClaimKey { equation: "1.1", claim: "claim", kind: "equal", hypotheses: vec![] },
+            None,
+        )
     };
     let held = Tally { decided: 1, undecided: 5, ..Tally::default() };
     let failure = super::super::cases::case(1, 0, &[]).map(|case| (case, Some("why".to_string())));

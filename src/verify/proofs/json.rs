@@ -1,6 +1,6 @@
 //! JSON of proofs and mutations: quantities are texts, and every key is always present.
 
-use super::{ProofAttempt, ProofOutcome, Proofs, Summary};
+use super::{ProofAttempt, ProofOutcome, ProofSummary, Proofs};
 use crate::claims::registry;
 use crate::proof::Counterexample;
 use crate::proof::data::GoalProof;
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 #[derive(Serialize)]
 struct All {
-    summary: Summary,
+    summary: ProofSummary,
     equations: Vec<Equation>,
     mutations: Vec<Mutation>,
 }
@@ -32,12 +32,12 @@ struct Claim {
     proof: Option<Vec<GoalProof>>,
     reason: Option<String>,
     counterexample: Option<Values>,
-    dropped: Vec<Less>,
+    dropped: Vec<DroppedResult>,
 }
 
 /// A claim without one of its hypotheses.
 #[derive(Serialize)]
-struct Less {
+struct DroppedResult {
     hypothesis: String,
     status: &'static str,
     counterexample: Option<Values>,
@@ -72,10 +72,10 @@ impl Serialize for Proofs {
 }
 
 fn claim(proved: &ProofAttempt, proofs: &Proofs) -> Claim {
-    let ProofAttempt { statement, answer, .. } = proved;
-    let paper = ProofPrinter::new(registry());
-    let (proof, reason, counterexample) = match answer {
-        ProofOutcome::Proof(proof) => (Some(paper.data(proof)), None, None),
+    let ProofAttempt { statement, outcome, .. } = proved;
+    let printer = ProofPrinter::new(registry());
+    let (proof, reason, counterexample) = match outcome {
+        ProofOutcome::Proof(proof) => (Some(printer.data(proof)), None, None),
         ProofOutcome::None(reason, counterexample) => {
             (None, Some(reason.clone()), counterexample.as_ref().map(values))
         }
@@ -83,7 +83,7 @@ fn claim(proved: &ProofAttempt, proofs: &Proofs) -> Claim {
     Claim {
         claim: statement.name(),
         kind: statement.kind(),
-        statement: paper.claim(statement),
+        statement: printer.claim(statement),
         hypotheses: proved.hypotheses(),
         status: proved.status(),
         proof,
@@ -93,13 +93,13 @@ fn claim(proved: &ProofAttempt, proofs: &Proofs) -> Claim {
     }
 }
 
-fn dropped(DroppedHypothesis { hypothesis: given, outcome: without, .. }: &DroppedHypothesis) -> Less {
-    let (status, counterexample) = match without {
+fn dropped(DroppedHypothesis { hypothesis, outcome, .. }: &DroppedHypothesis) -> DroppedResult {
+    let (status, counterexample) = match outcome {
         DropOutcome::Refuted(refutation) => ("refuted", Some(values(&refutation.counterexample()))),
         DropOutcome::StillProved => ("still_proved", None),
         DropOutcome::Undecided => ("unknown", None),
     };
-    Less { hypothesis: registry().format_hypothesis(given), status, counterexample }
+    DroppedResult { hypothesis: registry().format_hypothesis(hypothesis), status, counterexample }
 }
 
 fn mutation((Mutant { site, mutation }, outcome): &(Mutant, MutationOutcome)) -> Mutation {

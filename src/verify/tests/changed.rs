@@ -15,13 +15,13 @@ fn findings<J: NumberDomain>(
     drawn: &Drawn,
 ) -> Vec<(&'static str, &'static str)> {
     let checker = Checker::with(judge, claims, Vec::new());
-    let heads = checker.heads();
+    let keys = checker.keys();
     let mut found = Vec::new();
-    for (given, cases) in drawn.values() {
-        for (index, tally) in checker.check(given, &|_| true, cases) {
-            let row = tally.into_row(heads[index].clone(), None);
-            assert_eq!(row.decided + row.undecided, cases.len() as u64);
-            found.extend((row.status == Status::Failed).then_some((row.equation, row.claim)));
+    for (hypotheses, cases) in drawn.values() {
+        for (index, tally) in checker.check(hypotheses, &Options::default(), cases) {
+            let result = tally.into_result(keys[index].clone(), None);
+            assert_eq!(result.decided + result.undecided, cases.len() as u64);
+            found.extend((result.status == Status::Failed).then_some((result.equation, result.claim)));
         }
     }
     found
@@ -79,8 +79,8 @@ fn the_book_contains_the_report_of_a_mistake() {
     let report = run(&[], statements, &options, &|_, _| ());
     assert_eq!(report.shared, ["penalty::total_stiffness"]);
     let row = report.rows.iter().find(|row| row.status == Status::Failed).unwrap();
-    let Row { equation, claim, .. } = row;
-    let Summary { claims, proved, .. } = report.summary();
+    let ClaimResult { equation, claim, .. } = row;
+    let VerificationSummary { claims, proved, .. } = report.summary();
     let parts = [
         format!("{equation} {claim} NOT PROVED {}", row.reason.as_ref().unwrap()),
         format!("{} {equation} {claim} FAILED", row.point().unwrap()),

@@ -1,4 +1,4 @@
-//! Experiments on the laws of rounding in floats, for the claims about rounding.
+//! Experiments on the claims about rounding, evaluated with computed numbers.
 
 use super::{Experiment, MOST_STEPS, STEPS, Trial, UNITS, check, power_of_two};
 use crate::chapter::{SpringMass, augmented, structure, system};
@@ -14,50 +14,55 @@ use crate::solver::{Augmentation, Iterate, Plane, Scalar};
 use std::borrow::Cow;
 use std::sync::{Arc, LazyLock};
 
-/// Returns an experiment for each claim about rounding, evaluated with computed numbers.
-pub(super) fn laws<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
+/// Returns an experiment for each claim about rounding.
+pub(super) fn experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
     // Compiled once for all number systems.
-    static LAWS: LazyLock<Vec<Arc<Law>>> = LazyLock::new(|| {
-        let of_rounding = claims().filter(|claim| claim.contains_rounding());
-        of_rounding.map(|claim| Arc::new(Law::of(claim))).collect()
+    static CLAIMS: LazyLock<Vec<Arc<RoundingClaim>>> = LazyLock::new(|| {
+        let about_rounding = claims().filter(|claim| claim.contains_rounding());
+        about_rounding.map(|claim| Arc::new(RoundingClaim::of(claim))).collect()
     });
-    LAWS.iter().cloned().map(experiment).collect()
+    CLAIMS.iter().cloned().map(experiment).collect()
 }
 
-fn experiment<T: Scalar + Real + ToExact>(law: Arc<Law>) -> Experiment<T> {
+fn experiment<T: Scalar + Real + ToExact>(claim: Arc<RoundingClaim>) -> Experiment<T> {
+    let hypotheses = claim.statement.hypotheses().iter();
     Experiment {
-        equation: law.statement.equation(),
-        name: law.statement.name(),
+        equation: claim.statement.equation(),
+        name: claim.statement.name(),
         statement: None,
-        given: law.statement.hypotheses().iter().filter(|given| is_of_parameters(given)).cloned().collect(),
-        check: check(move |case: &Case<T>| law.trial(case).unwrap_or(Trial::Undecided)),
+        hypotheses: hypotheses.filter(|hypothesis| is_of_parameters(hypothesis)).cloned().collect(),
+        check: check(move |case: &Case<T>| claim.trial(case).unwrap_or(Trial::Undecided)),
     }
 }
 
 /// Returns `true` if cases can be sampled to satisfy the hypothesis. Hypotheses on computed quantities and on
 /// the precision are tested in each trial.
-fn is_of_parameters(given: &Hypothesis) -> bool {
-    !given.value.contains_rounding()
-        && given.interval().is_none()
-        && !given.value.symbols().contains(PRECISION)
+fn is_of_parameters(hypothesis: &Hypothesis) -> bool {
+    !hypothesis.value.contains_rounding()
+        && hypothesis.interval().is_none()
+        && !hypothesis.value.symbols().contains(PRECISION)
 }
 
 /// Returns `true` if all bounds vanish with η; for other bounds the ratio of error and bound has no meaning.
 fn bounds_vanish(claim: &[Instance]) -> bool {
-    let is_finer = |bound: &Tree| {
-        let at = |bits: i32| {
-            let number = |name| if name == PRECISION { Exact::power_of_two(bits) } else { Exact::from(2) };
-            bound.eval(&number, &|step| match step {
-                Op::Rounded(x) => Some(x.clone()),
-                step => piecewise_ops(step),
-            })
-        };
-        at(60).zip(at(20)).is_none_or(|(fine, coarse)| fine * Exact::from(2) <= coarse)
-    };
     claim.iter().all(|instance| match &instance.proposition {
-        Proposition::Within(_, bound) => is_finer(bound),
+        Proposition::Within(_, bound) => {
+            let [fine, coarse] = [60, 20].map(|bits| bound_at(bound, bits));
+            fine.zip(coarse).is_none_or(|(fine, coarse)| fine * Exact::from(2) <= coarse)
+        }
         _ => true,
     })
+}
+
+/// Returns a bound in this precision, with 2 for all other symbols.
+fn bound_at(bound: &Tree, bits: i32) -> Option<Exact> {
+    bound.eval(
+        &|symbol| if symbol == PRECISION { Exact::power_of_two(bits) } else { Exact::from(2) },
+        &|step| match step {
+            Op::Rounded(x) => Some(x.clone()),
+            step => piecewise_ops(step),
+        },
+    )
 }
 
 /// Returns `true` if the computed results have neither underflow nor overflow, so that the model of rounding
@@ -85,7 +90,7 @@ fn floats<T: Scalar + Real + ToExact>(case: &Case<T>) -> Option<Floats<T>> {
 }
 
 /// A claim about rounding, compiled.
-struct Law {
+struct RoundingClaim {
     statement: Statement,
     hypotheses: Compiled,
     claim: Compiled,
@@ -94,10 +99,10 @@ struct Law {
     repeats: bool,
 }
 
-impl Law {
+impl RoundingClaim {
     fn of(statement: &Statement) -> Self {
         let instances = instances(statement, STEPS);
-        Law {
+        RoundingClaim {
             statement: statement.clone(),
             bounds_vanish: bounds_vanish(&instances),
             repeats: statement.hypotheses().contains(&crate::claims::hypotheses().computed_repeats),
@@ -106,7 +111,7 @@ impl Law {
         }
     }
 
-    /// Evaluates the law with computed numbers; `None` if a hypothesis does not hold, or if a number is out of
+    /// Evaluates the claim with computed numbers; `None` if a hypothesis does not hold, or if a number is out of
     /// range.
     fn trial<T: Scalar + Real + ToExact>(&self, case: &Case<T>) -> Option<Trial> {
         let mut numbers = Numbers { case: Cow::Borrowed(case), floats: floats(case)? };
@@ -185,11 +190,8 @@ fn find_repeat<T: Scalar + Real + ToExact>(case: &Case<T>, precision: &Exact) ->
 
 /// Returns `true` if an error exceeds its bound, or has a larger ratio to it than another one that does not.
 fn is_worse(error: &Exact, bound: &Exact, (other, other_bound): &(Exact, &Exact)) -> bool {
-    let has_larger_ratio = || {
-        let can_be_larger = error > other || bound < *other_bound;
-        other <= *other_bound && can_be_larger && other * bound < error * *other_bound
-    };
-    error > bound || has_larger_ratio()
+    let can_have_larger_ratio = other <= *other_bound && (error > other || bound < *other_bound);
+    error > bound || can_have_larger_ratio && other * bound < error * *other_bound
 }
 
 #[cfg(test)]

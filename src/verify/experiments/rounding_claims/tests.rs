@@ -19,7 +19,7 @@ fn case() -> Case<f32> {
 }
 
 fn tried(claim: &Statement) -> Trial {
-    (experiment(Arc::new(Law::of(claim))).check)(&case())
+    (experiment(Arc::new(RoundingClaim::of(claim))).check)(&case())
 }
 
 #[test]
@@ -52,10 +52,13 @@ fn only_hypotheses_on_parameters_restrict_the_sampled_cases() {
     let bits = &given.fine_enough;
     let law =
         within("law", symbols().u.with_rounding(), int(1)).assuming([parameter, computed, interval, bits]);
-    assert_eq!(experiment::<f32>(Arc::new(Law::of(&law))).given.iter().collect::<Vec<_>>(), [parameter]);
+    assert_eq!(
+        experiment::<f32>(Arc::new(RoundingClaim::of(&law))).hypotheses.iter().collect::<Vec<_>>(),
+        [parameter]
+    );
     // Hypotheses that are not sampled are tested: fl(l + u − H) ≥ 0 holds here, and fails for l = 0.
     let under = within("law", symbols().u.with_rounding(), int(1)).assuming([computed]);
-    let supposing = |x: &Case<f32>| (experiment(Arc::new(Law::of(&under))).check)(x);
+    let supposing = |x: &Case<f32>| (experiment(Arc::new(RoundingClaim::of(&under))).check)(x);
     let mut apart = case();
     apart.system.l = 0.0;
     assert_eq!((supposing(&case()), supposing(&apart)), (Trial::Decided(true), Trial::Undecided));
@@ -102,7 +105,7 @@ fn a_repeated_multiplier_is_found_only_if_the_penalty_is_large() {
     // A law of the repeated λ is tested with it, whatever the λ of the case is.
     let pushes =
         non_negative("pushes", &symbols().lambda).assuming([&crate::claims::hypotheses().computed_repeats]);
-    let tried = |x: &Case<f64>| (experiment(Arc::new(Law::of(&pushes))).check)(x);
+    let tried = |x: &Case<f64>| (experiment(Arc::new(RoundingClaim::of(&pushes))).check)(x);
     assert_eq!(tried(&case), Trial::Decided(true));
     case.eps = 1e-6;
     assert_eq!(find_repeat(&case, &precision).map(|step| step.k), None);
