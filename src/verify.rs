@@ -237,8 +237,7 @@ const WINDOW: usize = if cfg!(test) { 4 } else { 100 };
 /// Proves and checks every claim, in parallel. `progress` receives the numbers of finished and of all pieces
 /// of work.
 ///
-/// Always returns, even for wrong formulas: a claim that is undefined, or whose evaluation panics, does not
-/// hold.
+/// Always terminates, even for wrong formulas: a claim that is undefined, or whose evaluation panics, fails.
 pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> VerificationReport {
     let checkers: Vec<_> = options.scalars.iter().map(|scalar| (*scalar, checks(*scalar))).collect();
     run(&checkers, statements(), options, progress)

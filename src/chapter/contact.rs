@@ -7,8 +7,8 @@ use crate::number::{Field, PositivePart};
 ///
 /// `p = l + u − H`
 ///
-/// Domain: all. Two roundings: off by at most η (|fl(l + u)| + |fl(p)|), which is all of p where the two
-/// lengths cancel. Source: §1.2.
+/// Domain: all. Two roundings: the error is at most η (|fl(l + u)| + |fl(p)|), which can be all of p if the
+/// two lengths cancel. Source: §1.2.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, contact};

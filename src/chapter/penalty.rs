@@ -79,7 +79,7 @@ pub fn series<T: Field>(eps: &T, higher: &[T], p: &T) -> T {
 ///
 /// `W′ = ∂W/∂p`
 ///
-/// Formed by differentiating. Odd and increasing in `p`. Source: §1.3.2, from (1.10).
+/// Computed by automatic differentiation. Odd and increasing in `p`. Source: §1.3.2, from (1.10).
 ///
 /// ```
 /// # use spring_mass_contact::chapter::penalty;
@@ -95,7 +95,7 @@ pub fn series_force<T: Field>(eps: &T, higher: &[T], p: &T) -> T {
 ///
 /// `r = c p + W′ − R`
 ///
-/// Odd and strictly increasing, except for the constant, so it has exactly one root;
+/// Strictly increasing, and odd except for the constant, so it has exactly one root;
 /// [`series_penetration`](crate::solver) finds it. Source: §1.3.2, from (1.10).
 ///
 /// ```
@@ -130,10 +130,10 @@ pub fn residual<T: Field>(system: &SpringMass<T>, eps: &T, u: &T) -> T {
 ///
 /// `N = ε p`
 ///
-/// `eps` is the penalty ε in N/m. Domain: all. Floats: at a computed (1.13) it is off by at most
-/// [`rounding::penalty_force_error`](super::rounding::penalty_force_error), which grows with ε: a large one
-/// costs digits. The force by equilibrium, [`augmented::contact_force`](super::augmented::contact_force), has
-/// them. Source: §1.3.2.
+/// `eps` is the penalty ε in N/m. Domain: all. Floats: at a computed (1.13) its error is at most
+/// [`rounding::penalty_force_error`](super::rounding::penalty_force_error), which grows with ε. The force by
+/// equilibrium, [`augmented::contact_force`](super::augmented::contact_force), keeps its accuracy. Source:
+/// §1.3.2.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, penalty};
@@ -165,7 +165,7 @@ pub fn total_stiffness<T: Field>(system: &SpringMass<T>, eps: &T) -> T {
 ///
 /// `u = (ε (H − l) + m g) / (c + ε)`
 ///
-/// `eps` is the penalty ε in N/m. Domain: c + ε ≠ 0. Floats: where R > 0 it is off by at most
+/// `eps` is the penalty ε in N/m. Domain: c + ε ≠ 0. Floats: for R > 0 its error is at most
 /// [`rounding::deflection_error`](super::rounding::deflection_error). Source: §1.3.2.
 ///
 /// ```
@@ -229,7 +229,7 @@ pub fn contact_force_at_equilibrium<T: Field>(system: &SpringMass<T>, eps: &T) -
 }
 
 /// Remark 1.3.2: the least penalty, in N/m, that keeps the penetration at or below `tolerance` > 0 in
-/// m; every greater one does too.
+/// m; every larger one does, too.
 ///
 /// `ε = R / tol − c`
 ///
@@ -246,7 +246,7 @@ pub fn penalty_for<T: Field>(system: &SpringMass<T>, tolerance: &T) -> T {
     system::reaction(system) / tolerance - c
 }
 
-/// Eq. (1.13) with a plane that never pulls (note 4): the deflection, in m.
+/// Eq. (1.13) for unilateral contact (note 4): the deflection, in m.
 ///
 /// `u = min(m g / c, (ε (H − l) + m g) / (c + ε))`
 ///

@@ -1,14 +1,13 @@
 //! Bounds of rounding errors of the chapter's formulas, for every precision (note 8).
 //!
-//! A number of p bits is rounded to with a relative error of at most η = 2⁻ᵖ, for p ≥ 2; under- and
-//! overflow are left out. The parameters are meant as they are in floats, and computed is, in their
-//! order, what the functions of the other modules compute. Each bound is claimed beside the formula that it
-//! bounds, and proved.
+//! Rounding to p ≥ 2 bits has a relative error of at most η = 2⁻ᵖ; underflow and overflow are excluded. The
+//! bounds are for the parameters as rounded, and for the functions of the other modules, computed in their
+//! order of operations. Each bound is a claim of the entry with the formula that it bounds, and is proved.
 
 use super::{SpringMass, penalty, system};
 use crate::number::{Field, PositivePart};
 
-/// The unit roundoff of numbers of p bits, dimensionless: bounds the relative rounding error.
+/// Unit roundoff of numbers of p bits, dimensionless: bounds the relative rounding error.
 ///
 /// `η = 1 / 2ᵖ`
 ///
@@ -43,8 +42,8 @@ pub fn deflection_error<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T)
 ///
 /// `η (ε (|H| + 5 |Δ|) + 7 R) (1 + 8 η)`
 ///
-/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R ≥ 0. It grows with ε, so that half
-/// of the digits are lost at best. Source: §1.3.2, note 8.
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R ≥ 0. It grows with ε, so that at
+/// best half of the digits are lost. Source: §1.3.2, note 8.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, rounding};
@@ -95,7 +94,7 @@ pub fn floor_scale<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T) -> T
 ///
 /// `20 F`
 ///
-/// So they do in its unilateral form. `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R ≥ 0,
+/// Holds for the unilateral form, too. `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: c > 0, ε > 0, R ≥ 0,
 /// and 64 (c + ε) ≤ ε (2ᵖ + 1). Source: §1.3.3, note 8.
 ///
 /// ```
@@ -111,8 +110,8 @@ pub fn penetration_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T
 ///
 /// `11 (c + ε) F`
 ///
-/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: as of [`penetration_drift`]. A large penalty costs the
-/// multiplier digits, and the deflection none. Source: §1.3.3, note 8.
+/// `eps` is the penalty ε in N/m, `n` is 2ᵖ. Domain: that of [`penetration_drift`]. A large penalty reduces
+/// the accuracy of the multiplier, but not of the deflection. Source: §1.3.3, note 8.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, rounding};
@@ -123,13 +122,13 @@ pub fn multiplier_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T)
     T::int(11) * penalty::total_stiffness(system, eps) * floor_scale(system, eps, n)
 }
 
-/// The square of the compliance 1 / (c + ε) at which a computed ε p serves best as a value of R, in m²/N².
+/// Square of the compliance 1 / (c + ε) at which a computed ε p best approximates R, in m²/N².
 ///
 /// `η (|H| + 5 |Δ|) (1 + 8 η) / (c R)`
 ///
-/// `n` is 2ᵖ. A smaller ε leaves more of R to the spring, a larger one more to
-/// [rounding](penalty_force_error); the bound of both together is least here. Where H and l are 0, this is
-/// 0, and no ε is too large. Domain: c > 0, R > 0, n > 0. Source: §1.3.2, note 8.
+/// `n` is 2ᵖ. With a smaller ε the spring carries more of R, with a larger one
+/// [rounding](penalty_force_error) increases; the bound of both together is least here. If H and l are 0, this
+/// is 0, and no ε is too large. Domain: c > 0, R > 0, n > 0. Source: §1.3.2, note 8.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, rounding};

@@ -44,7 +44,7 @@ pub fn residual<T: Field>(system: &SpringMass<T>, u: &T) -> T {
 ///
 /// `u = m g / c`
 ///
-/// Domain: c ≠ 0. Two roundings: off by at most η (2 + η) |fl(u)|. Source: §1.1, the root of (1.1).
+/// Domain: c ≠ 0. Two roundings: the error is at most η (2 + η) |fl(u)|. Source: §1.1, the root of (1.1).
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, structure};
@@ -79,7 +79,7 @@ pub fn virtual_work<T: Field>(system: &SpringMass<T>, u: &T, du: &T) -> T {
 ///
 /// `δΠ = δu ∂Π/∂u`
 ///
-/// Formed by differentiating [`potential_energy`], not by writing its derivative down. Domain: all.
+/// Computed by automatic differentiation of [`potential_energy`]. Domain: all.
 /// Source: §1.1.
 ///
 /// ```

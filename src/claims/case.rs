@@ -87,7 +87,7 @@ coordinates! {
 }
 
 impl Var {
-    /// Returns the coordinate with this symbol.
+    /// Returns the coordinate with this symbol, if there is one.
     pub fn named(symbol: &str) -> Option<Var> {
         Var::ALL.iter().copied().find(|var| var.symbol() == symbol)
     }

@@ -11,7 +11,7 @@ use crate::formula::{Hypothesis, Notation, Statement};
 /// words, relations, names of quantities, and expressions that no function computes.
 #[derive(Clone, Debug, Default)]
 pub struct Entry {
-    /// "1.13", "Theorem 1.3.3", "Remark 1.3.2", "Fig. 1.1", "note 4" or "beyond 2".
+    /// Equation number or name: "1.13", "Theorem 1.3.3", "Remark 1.3.2", "Fig. 1.1", "note 4" or "beyond 2".
     pub equation: &'static str,
     /// Title.
     pub title: &'static str,
@@ -23,7 +23,7 @@ pub struct Entry {
     latex: Option<&'static str>,
     /// Hypotheses that its claims inherit.
     pub hypotheses: Vec<Hypothesis>,
-    /// Functions in [`chapter`](crate::chapter) with its formulas, as `module::name`, its own first.
+    /// Functions in [`chapter`](crate::chapter) with its formulas, as `module::name`; that of its equation first.
     pub functions: Vec<&'static str>,
     /// Entries from which it is derived.
     pub follows_from: Vec<&'static str>,

@@ -383,7 +383,7 @@ fn unilateral_step(lambda: &Tree) -> Tree {
     augmented::unilateral_update(s, eps, lambda, &augmented::unilateral_deflection(s, eps, lambda))
 }
 
-/// Slope at p of the functional W = (1 − 1/(2 (1 + ε))) p², which has all three properties that the chapter
+/// Force at p of the functional W = (1 − 1/(2 (1 + ε))) p², which has all three properties that the chapter
 /// requires.
 fn saturating_force(eps: &Tree, p: &Tree) -> Tree {
     let (eps, p) = (Dual::constant(eps.clone()), Dual::variable(p.clone()));
@@ -392,7 +392,7 @@ fn saturating_force(eps: &Tree, p: &Tree) -> Tree {
     functional.derivative
 }
 
-/// A functional without one of these properties.
+/// Functional W = ε p²/(1 + p²), which lacks one of these properties: it is bounded in p.
 fn bounded_penalty(eps: &Tree, p: &Tree) -> Tree {
     eps * p * p / (int(1) + p * p)
 }

@@ -51,7 +51,7 @@ pub struct Augmentation<'a, T> {
     plane: Plane,
     k: u64,
     multiplier: T,
-    /// Created with the first step if computing in place pays.
+    /// Created with the first step if the number system computes in place.
     rounds: Option<SpecializedProgram<T>>,
 }
 
@@ -124,7 +124,7 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
         }
     }
 
-    /// Returns the memory of a used iterate, in which the next ones are computed.
+    /// Recycles the memory of an iterate for the next ones.
     pub(super) fn reuse(&mut self, iterate: Iterate<T>) {
         if let Some(rounds) = &mut self.rounds {
             let Record { multiplier, step, .. } = Record::of(self.plane);

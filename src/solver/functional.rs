@@ -78,9 +78,9 @@ pub(super) fn broken<T: Scalar>(condition: Condition, at: &T) -> FunctionalError
 /// is at most `tolerance` > 0, in m, or rounding leaves the sign undecided. If |u − u*| < tolerance is then
 /// proved, the outcome is [`Converged`](Outcome::Converged), otherwise [`Stagnated`](Outcome::Stagnated) with
 /// the bound in [`floor`](Solution::floor). Rationals always meet the tolerance; the bounds have about as
-/// many digits as the tolerance requires. After ten thousand steps, which no functional needs that is smooth
-/// near the root, the outcome is [`IterationLimit`](Outcome::IterationLimit). If there is nothing to iterate
-/// it is [`Direct`](Outcome::Direct).
+/// many digits as the tolerance requires. The outcome is [`IterationLimit`](Outcome::IterationLimit) after ten
+/// thousand steps, which suffice if the functional is smooth near the root, and [`Direct`](Outcome::Direct)
+/// without iteration.
 ///
 /// The [conditions](Condition) ensure that there is one equilibrium, with the least energy. W(0) = 0 is
 /// tested at 0, the others except the last at all sixteenths of R/c, and monotonicity at every evaluation of

@@ -8,7 +8,7 @@ use crate::chapter::{SpringMass, structure};
 use crate::number::{Dual, PositivePart};
 use std::cmp::Ordering;
 
-/// Returns a system of weight R with gap 0. It has the same equation in p, and its terms cancel no further.
+/// Returns a system of weight R with gap 0. Its equation in p is the same, without further cancellation.
 pub(super) fn reduced_system<E: PositivePart>(c: E, reaction: E) -> SpringMass<E> {
     SpringMass { c, m: reaction, g: E::one(), l: E::zero(), h: E::zero() }
 }
@@ -24,7 +24,7 @@ pub(super) struct Equation<'a, E> {
 pub(super) struct RootBracket<T> {
     pub(super) lower: T,
     pub(super) upper: T,
-    /// Whether the search reached its limit of steps.
+    /// Whether the search ended before its limit of steps.
     pub(super) ended: bool,
 }
 

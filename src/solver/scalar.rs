@@ -154,9 +154,9 @@ pub trait Scalar: OrderedField {
     /// Returns `true` if the number is neither infinite nor NaN.
     fn is_finite(&self) -> bool;
 
-    /// Returns the number of binary digits of a number whose length grows with arithmetic, counted as by
-    /// [`Exact::bit_length`](crate::number::Exact::bit_length). The default is 0, for numbers of constant
-    /// length. An augmentation ends with an error before it takes too long.
+    /// Returns the number of binary digits, as [`Exact::bit_length`](crate::number::Exact::bit_length) counts
+    /// them, of a number whose length grows with arithmetic. The default is 0, for numbers of constant length.
+    /// An augmentation whose multipliers become too long ends with an error.
     fn variable_bit_length(&self) -> u64 {
         0
     }

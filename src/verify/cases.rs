@@ -49,8 +49,8 @@ const PROFILES: &[Profile] = &[
     Profile::SubnormalDouble,
 ];
 
-/// Subnormal quantities of a case. The other quantities compensate for them: no force and no quotient of a
-/// force and a stiffness vanishes by rounding, since [`solve`](crate::solver::solve) would refuse the case.
+/// Subnormal quantities of a case. The other quantities are scaled so that no force, and no quotient of a force
+/// and a stiffness, is rounded to 0; [`solve`](crate::solver::solve) returns an error for such a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Small {
     /// c and ε.
@@ -121,9 +121,9 @@ impl CaseSampler {
         Exact::from(rug::Rational::from(mantissa) << self.between(low, high))
     }
 
-    /// Returns the ranges of mantissa and exponent in a subnormal case of floats of this precision, whose
-    /// smallest number is this power of two. Subnormal numbers are multiples of four times it, so that a four
-    /// times larger unit (note 8) changes no digit.
+    /// Returns the number of bits of the mantissa and the range of the exponent, for a subnormal case of floats
+    /// of this precision, whose smallest number is 2^`smallest`. Subnormal numbers are multiples of four times
+    /// that number, so that a unit four times as large (note 8) changes no digit.
     fn subnormal(&self, var: Var, float: usize, smallest: i32, precision: i32) -> (u32, i32, i32) {
         // Few digits, so that a product of two such numbers is small and not less than the smallest number.
         let digits = if self.small == Small::Products { 6 } else { 11 };
@@ -153,7 +153,7 @@ impl CaseSampler {
         }
     }
 
-    /// Returns one unit in the last place of c Δ, or 0.
+    /// Returns 0, or plus or minus one unit in the last place of c Δ in f32 or f64.
     fn next_to_grazing(&mut self, case: &Case<Exact>) -> Exact {
         let force = (&case.system.c * system::gap(&case.system)).abs();
         match self.below(5) {

@@ -86,8 +86,8 @@ impl Tally {
         }
     }
 
-    /// Tries an experiment, whose panic is a failure: a division of rationals by zero, or code that expects right
-    /// formulas. It only computes, so that no state is left inconsistent.
+    /// Runs an experiment. A panic counts as a failure: rationals are divided by zero, or code relies on correct
+    /// formulas. An experiment only computes, so a panic leaves no inconsistent state.
     fn try_experiment<T>(&mut self, case: &Case<Exact>, experiment: &Experiment<T>, computed: &Case<T>) {
         match catch_unwind(AssertUnwindSafe(|| (experiment.check)(computed))) {
             Err(panic) => self.decide(case, false, Some(message(&*panic))),

@@ -1,6 +1,6 @@
-//! Experiments on computed numbers: rounding floors, stagnation, guarantees of the solver, counts.
+//! Experiments on computed numbers: bounds and outcomes of the solver, changes of units, counts of steps.
 //!
-//! The book's chapter on floating point derives their bounds. "Exact" always refers to the parameters as
+//! The book's page on floating point derives the bounds. Exact results are those for the parameters as
 //! represented in their scalar.
 
 mod rounding_claims;
@@ -32,7 +32,7 @@ pub enum Trial {
     },
     /// The property holds or not.
     Decided(bool),
-    /// Undecided: a condition is not met, or a number is out of range.
+    /// Undecided: a hypothesis does not hold, or a number is out of range.
     Undecided,
 }
 
@@ -135,7 +135,7 @@ fn exact<T: ToExact>(x: &T) -> Option<Exact> {
     x.to_exact().ok()
 }
 
-/// The state agrees with the exact sign of R, also near grazing.
+/// Checks that the state corresponds to the exact sign of R.
 fn state<T: Scalar + ToExact>(
     x: &Case<T>,
     of: impl Fn(&SpringMass<T>) -> Result<State, SolveError>,
@@ -174,7 +174,7 @@ fn contains_answer<T: Scalar + ToExact>(
         && encloses(&solution.bounds.contact_force, &force)
 }
 
-/// The bounds of a direct method contain its exact solution, and so does the interval around the result.
+/// Checks that the bounds of a direct method contain its exact solution.
 fn bounds<T: Scalar + ToExact>(x: &Case<T>, method: &Method<T>, solve: impl Solver<T>) -> Trial {
     let (Ok(system), Ok(solution)) = (x.system.try_map(|y| y.to_exact()), solve(&x.system, method)) else {
         return Trial::Undecided;
@@ -186,7 +186,7 @@ fn bounds<T: Scalar + ToExact>(x: &Case<T>, method: &Method<T>, solve: impl Solv
     Trial::Decided(contains_answer(&solution, &system, eps.as_ref()))
 }
 
-/// The exact residual of (1.10) changes sign between the two neighbours of the root.
+/// Checks that the exact residual of (1.10) changes sign between the two neighbours of the root.
 fn series_root<T: Scalar + Real + ToExact>(
     x: &Case<T>,
     root: impl Fn(&SpringMass<T>, &T, &[T]) -> Result<T, SolveError>,
@@ -224,8 +224,8 @@ fn by_augmentation<T: Clone>(x: &Case<T>) -> Method<T> {
     Method::Augmented { penalty, tolerance, max_augmentations: STEPS as u64, start }
 }
 
-/// `converged` implies that |û − u*| is below the tolerance, exactly; the floor bounds it if `stagnated`; the
-/// bounds contain the limit for every outcome; the plane never pulls.
+/// Checks that the exact |û − u*| is below the tolerance if the outcome is `converged`, and not above the floor
+/// if it is `stagnated`; that the bounds contain the limit; and that N ≥ 0.
 fn promise<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Trial {
     let (Ok(system), Ok(solution)) =
         (x.system.try_map(|y| y.to_exact()), solve(&x.system, &by_augmentation(x)))
@@ -247,7 +247,7 @@ fn promise<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Tr
     Trial::Decided(kept && pushes && contains_answer(&solution, &system, None))
 }
 
-/// A change of units by powers of two changes no digit.
+/// Checks that a change of units by powers of two changes no digit.
 fn units<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Trial {
     let [length, _, force] = UNITS;
     let scaled = x.map(|var, y| scale(y, unit(var)));
@@ -285,12 +285,12 @@ fn scale<T: Scalar>(x: &T, n: i32) -> T {
     x.clone() * power_of_two::<T>(n)
 }
 
-/// Returns (1.16) in rationals, for at most [`STEPS`] steps, and with at most as many digits as right
-/// formulas need: wrong ones can double them in each step.
+/// Returns the iterates of (1.16) in rationals, at most [`STEPS`], and only while they have no more digits than
+/// correct formulas need: with wrong ones the number of digits can double in each step.
 ///
 /// The closed forms of λ_k and u_k are quotients of degree at most k + 1 in c and ε, and of degree 1 in all
-/// other quantities. For s digits of all given numbers, numerators and denominators together, both parts of
-/// each fraction are products of at most 2 (k + 1) s digits; two of them have 8 (k + 1) s. The rest is a
+/// other quantities. If all parameters, numerators and denominators together, have s digits, then numerator and
+/// denominator of λ_k and of u_k have at most 2 (k + 1) s digits each, 8 (k + 1) s together. The rest is a
 /// margin for carries.
 fn exact_steps<'a>(
     x: &'a Case<Exact>,
@@ -305,7 +305,7 @@ fn exact_steps<'a>(
     })
 }
 
-/// The count of the iteration is that of (1.33) solved for k.
+/// Checks that the iteration first meets the tolerance at the k for which (1.33) is solved.
 fn count(x: &Case<Exact>, plane: Plane, mut steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
     let k = exact_augmentation_count(&x.system, &x.eps, &x.tol, &x.lambda, plane);
     let Some(k) = k.ok().and_then(|k| k.to_usize()).filter(|k| *k < STEPS) else { return Trial::Undecided };
@@ -326,13 +326,13 @@ fn start_of_tie(x: &Case<Exact>) -> Exact {
     system::reaction(&x.system) - missing
 }
 
-/// If some |p_k| *is* the tolerance, the iteration continues: its count is k + 1.
+/// Checks that an iteration with |p₂| equal to the tolerance continues, and stops at k = 3.
 fn tie(x: &Case<Exact>, mut steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
     let found = steps.position(|step| augmented::within_tolerance(&step.penetration, &x.tol));
     Trial::Decided(found == Some(3))
 }
 
-/// For R ≥ 0 and every start, λ_k = R + ρ^{k−1} (λ₁ − R) for k ≥ 1.
+/// Checks that λ_k = R + ρ^{k−1} (λ₁ − R) for R ≥ 0 and every λ₀, for k from 2 to 6.
 fn unilateral_closed_form(x: &Case<Exact>, steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
     let steps: Vec<_> = steps.skip(1).take(6).collect();
     let [first, later @ ..] = steps.as_slice() else { return Trial::Decided(false) };
@@ -345,7 +345,7 @@ fn unilateral_closed_form(x: &Case<Exact>, steps: impl Iterator<Item = Iterate<E
     Trial::Decided(holds && later.len() == 5)
 }
 
-/// For R < 0 the multiplier first vanishes at K, and the mass is separated from step max(K − 1, 0) on.
+/// Checks that for R < 0 the multiplier is first 0 at K, and the mass separated from step max(K − 1, 0) on.
 fn release(x: &Case<Exact>, steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
     let steps: Vec<_> = steps.collect();
     if steps.len() < STEPS {

@@ -78,7 +78,7 @@ pub(super) fn count(
     Ok(while_active.min(after_release))
 }
 
-/// Returns the smallest k with |p_k| = ρᵏ |p₀| < tol, the residual while the plane is active.
+/// Returns the smallest k with |p_k| = ρᵏ |p₀| < tol; while the contact is active, |p_k| is the residual.
 fn count_while_active(
     system: &SpringMass<Exact>,
     eps: &Exact,
