@@ -2,7 +2,8 @@
 //!
 //! Rounding to p ≥ 2 bits has a relative error of at most η = 2⁻ᵖ; underflow and overflow are excluded. The
 //! bounds are for the parameters as rounded, and for the functions of the other modules, computed in their
-//! order of operations. Each bound is a claim of the entry with the formula that it bounds, and is proved.
+//! order of operations. Each bound is proved: it is a claim about the formula whose error it bounds, in the
+//! same entry.
 
 use super::{SpringMass, penalty, system};
 use crate::number::{Field, PositivePart};
@@ -127,8 +128,8 @@ pub fn multiplier_drift<T: PositivePart>(system: &SpringMass<T>, eps: &T, n: &T)
 /// `η (|H| + 5 |Δ|) (1 + 8 η) / (c R)`
 ///
 /// `n` is 2ᵖ. With a smaller ε the spring carries more of R, with a larger one
-/// [rounding](penalty_force_error) increases; the bound of both together is least here. If H and l are 0, this
-/// is 0, and no ε is too large. Domain: c > 0, R > 0, n > 0. Source: §1.3.2, note 8.
+/// [rounding](penalty_force_error) increases; the bound of both together is least here. If H and l are 0,
+/// this is 0, and no ε is too large. Domain: c > 0, R > 0, n > 0. Source: §1.3.2, note 8.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, rounding};

@@ -23,7 +23,8 @@ pub struct Entry {
     latex: Option<&'static str>,
     /// Hypotheses that its claims inherit.
     pub hypotheses: Vec<Hypothesis>,
-    /// Functions in [`chapter`](crate::chapter) with its formulas, as `module::name`; that of its equation first.
+    /// Functions in [`chapter`](crate::chapter) with its formulas, as `module::name`; that of its equation
+    /// first.
     pub functions: Vec<&'static str>,
     /// Entries from which it is derived.
     pub follows_from: Vec<&'static str>,

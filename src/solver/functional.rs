@@ -60,7 +60,7 @@ pub enum FunctionalError {
     },
 }
 
-pub(super) fn broken<T: Scalar>(condition: Condition, at: &T) -> FunctionalError {
+pub(super) fn violation<T: Scalar>(condition: Condition, at: &T) -> FunctionalError {
     FunctionalError::Broken { condition, at: format!("{at:?}") }
 }
 
@@ -78,9 +78,9 @@ pub(super) fn broken<T: Scalar>(condition: Condition, at: &T) -> FunctionalError
 /// is at most `tolerance` > 0, in m, or rounding leaves the sign undecided. If |u − u*| < tolerance is then
 /// proved, the outcome is [`Converged`](Outcome::Converged), otherwise [`Stagnated`](Outcome::Stagnated) with
 /// the bound in [`floor`](Solution::floor). Rationals always meet the tolerance; the bounds have about as
-/// many digits as the tolerance requires. The outcome is [`IterationLimit`](Outcome::IterationLimit) after ten
-/// thousand steps, which suffice if the functional is smooth near the root, and [`Direct`](Outcome::Direct)
-/// without iteration.
+/// many digits as the tolerance requires. The outcome is [`IterationLimit`](Outcome::IterationLimit) after
+/// ten thousand steps, which suffice if the functional is smooth near the root, and
+/// [`Direct`](Outcome::Direct) without iteration.
 ///
 /// The [conditions](Condition) ensure that there is one equilibrium, with the least energy. W(0) = 0 is
 /// tested at 0, the others except the last at all sixteenths of R/c, and monotonicity at every evaluation of
@@ -122,15 +122,15 @@ pub fn solve_functional<T: Scalar, const N: usize>(
 ) -> Result<Solution<T>, FunctionalError> {
     let rigid = Solution { multiplier: None, ..solve(system, &Method::Lagrange)? };
     validate::positive("tolerance", tolerance)?;
-    let parameters = lifted(parameters)?;
+    let parameters = enclose_parameters(parameters)?;
     if rigid.state != State::Contact {
         return Ok(rigid);
     }
-    in_contact(system, rigid, tolerance, &|p| functional(&parameters, p))
+    solve_in_contact(system, rigid, tolerance, &|p| functional(&parameters, p))
 }
 
 /// Returns the solution for R > 0, given that by Lagrange multiplier.
-fn in_contact<T: Scalar>(
+fn solve_in_contact<T: Scalar>(
     system: &SpringMass<T>,
     rigid: Solution<T>,
     tolerance: &T,
@@ -139,9 +139,9 @@ fn in_contact<T: Scalar>(
     let enclosed = system.map(T::enclose);
     let reaction = system::reaction(&enclosed);
     let equation = Equation::new(enclosed.c.clone(), reaction, functional);
-    let most = equation.most()?;
-    equation.check(&most)?;
-    let RootBracket { lower, upper, ended } = equation.root(&most, tolerance)?;
+    let max = equation.max_penetration()?;
+    equation.check_conditions(&max)?;
+    let RootBracket { lower, upper, is_complete } = equation.root(&max, tolerance)?;
     if upper.is_zero() {
         return Ok(rigid);
     }
@@ -152,7 +152,7 @@ fn in_contact<T: Scalar>(
     // R − c p, which decreases with the penetration.
     let forces =
         [&upper, &lower].map(|p| augmented::contact_force(&equation.spring, &p.enclose()).positive_part());
-    let outcome = match ended {
+    let outcome = match is_complete {
         _ if error < *tolerance => Outcome::Converged,
         true => Outcome::Stagnated,
         false => Outcome::IterationLimit,
@@ -216,7 +216,7 @@ pub fn penalty_for_functional<T: Scalar, const N: usize>(
 ) -> Result<T, FunctionalError> {
     let touches = State::of(system)? == State::Contact;
     validate::positive("tolerance", tolerance)?;
-    lifted(parameters)?;
+    enclose_parameters(parameters)?;
     let mut parameters = parameters.clone();
     let enclosed = system.map(T::enclose);
     let spring = reduced_system(enclosed.c.clone(), system::reaction(&enclosed));
@@ -224,9 +224,9 @@ pub fn penalty_for_functional<T: Scalar, const N: usize>(
     let least = structure::least_energy(&spring);
     let p = Dual::constant(tolerance.enclose());
     for _ in 0..=1000 {
-        let lifted = lifted(&parameters)?;
-        vanishes::<T>(&functional(&lifted, &Dual::zero()).value)?;
-        let w = functional(&lifted, &p).value;
+        let enclosed_parameters = enclose_parameters(&parameters)?;
+        check_vanishes::<T>(&functional(&enclosed_parameters, &Dual::zero()).value)?;
+        let w = functional(&enclosed_parameters, &p).value;
         let Some(eps) = parameters.first_mut() else { break };
         if !touches || T::sign(&(w + &least)) == Some(Ordering::Greater) {
             return Ok(eps.clone());
@@ -236,20 +236,22 @@ pub fn penalty_for_functional<T: Scalar, const N: usize>(
             break;
         }
     }
-    Err(broken(Condition::UnboundedInPenalty, tolerance))
+    Err(violation(Condition::UnboundedInPenalty, tolerance))
 }
 
 /// Returns an error unless W is finite and its enclosure contains 0.
-pub(super) fn vanishes<T: Scalar>(w: &T::Enclosure) -> Result<(), FunctionalError> {
+pub(super) fn check_vanishes<T: Scalar>(w: &T::Enclosure) -> Result<(), FunctionalError> {
     let holds = is_finite::<T>(w) && T::sign(w).is_none_or(Ordering::is_eq);
-    if holds { Ok(()) } else { Err(broken(Condition::ZeroAtContact, &T::zero())) }
+    if holds { Ok(()) } else { Err(violation(Condition::ZeroAtContact, &T::zero())) }
 }
 
 pub(super) fn is_finite<T: Scalar>(x: &T::Enclosure) -> bool {
     T::magnitude(x).is_finite()
 }
 
-fn lifted<T: Scalar, const N: usize>(parameters: &[T; N]) -> Result<[DualEnclosure<T>; N], SolveError> {
+fn enclose_parameters<T: Scalar, const N: usize>(
+    parameters: &[T; N],
+) -> Result<[DualEnclosure<T>; N], SolveError> {
     parameters.iter().try_for_each(|x| validate::finite_number("penalty parameter", x))?;
     Ok(parameters.each_ref().map(|x| Dual::constant(x.enclose())))
 }

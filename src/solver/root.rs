@@ -1,6 +1,6 @@
 //! Root of c p + W′(p) = R for any W, between two points with certain signs.
 
-use super::functional::{Condition, FunctionalError, broken, is_finite, vanishes};
+use super::functional::{Condition, FunctionalError, check_vanishes, is_finite, violation};
 use super::scalar::power;
 use super::validate::SolveError;
 use super::{Interval, Scalar, to_interval};
@@ -25,12 +25,12 @@ pub(super) struct RootBracket<T> {
     pub(super) lower: T,
     pub(super) upper: T,
     /// Whether the search ended before its limit of steps.
-    pub(super) ended: bool,
+    pub(super) is_complete: bool,
 }
 
 impl<T: Clone> RootBracket<T> {
     fn point(root: T) -> Self {
-        RootBracket { lower: root.clone(), upper: root, ended: true }
+        RootBracket { lower: root.clone(), upper: root, is_complete: true }
     }
 }
 
@@ -38,19 +38,19 @@ impl<T: Clone> RootBracket<T> {
 /// magnitude.
 enum Side<T> {
     Below(T),
-    At,
+    Root,
     Above(T),
     /// The sign is undecided.
-    Near,
+    Undecided,
     /// W or W′ is not finite.
-    Nowhere,
+    OutOfRange,
 }
 
 /// Largest number of steps, each with at most two evaluations of W.
-const MOST_STEPS: u32 = 10_000;
+const MAX_STEPS: u32 = 10_000;
 
 /// Largest number of significant binary digits.
-const MOST_DIGITS: u64 = 1 << 22;
+const MAX_BITS: u64 = 1 << 22;
 
 impl<'a, E: PositivePart> Equation<'a, E> {
     pub(super) fn new(c: E, reaction: E, functional: &'a dyn Fn(&Dual<E>) -> Dual<E>) -> Self {
@@ -58,9 +58,9 @@ impl<'a, E: PositivePart> Equation<'a, E> {
     }
 
     /// Returns R/c, rounded up; no penetration is larger, since W′ ≥ 0.
-    pub(super) fn most<T: Scalar<Enclosure = E>>(&self) -> Result<T, SolveError> {
-        let most: Interval<T> = to_interval(&structure::deflection(&self.spring), "penetration")?;
-        Ok(most.upper)
+    pub(super) fn max_penetration<T: Scalar<Enclosure = E>>(&self) -> Result<T, SolveError> {
+        let interval: Interval<T> = to_interval(&structure::deflection(&self.spring), "penetration")?;
+        Ok(interval.upper)
     }
 
     fn energy_and_force<T: Scalar<Enclosure = E>>(&self, p: &T) -> Dual<E> {
@@ -70,131 +70,136 @@ impl<'a, E: PositivePart> Equation<'a, E> {
     fn side<T: Scalar<Enclosure = E>>(&self, p: &T) -> Result<Side<T>, FunctionalError> {
         let force = self.energy_and_force(p).derivative;
         if T::sign(&force) == Some(Ordering::Less) {
-            return Err(broken(Condition::Monotone, p));
+            return Err(violation(Condition::Monotone, p));
         }
         let residual = structure::residual(&self.spring, &p.enclose()) + force;
         if !is_finite::<T>(&residual) {
-            return Ok(Side::Nowhere);
+            return Ok(Side::OutOfRange);
         }
         let Interval { lower, upper } = T::interval(&residual);
-        let size = half(&lower) + half(&upper);
+        let estimate = half(&lower) + half(&upper);
         Ok(match T::sign(&residual) {
-            Some(Ordering::Less) => Side::Below(size),
-            Some(Ordering::Equal) => Side::At,
-            Some(Ordering::Greater) => Side::Above(size),
-            None => Side::Near,
+            Some(Ordering::Less) => Side::Below(estimate),
+            Some(Ordering::Equal) => Side::Root,
+            Some(Ordering::Greater) => Side::Above(estimate),
+            None => Side::Undecided,
         })
     }
 
     /// Tests the conditions at 0 and at the sixteenths of R/c.
-    pub(super) fn check<T: Scalar<Enclosure = E>>(&self, most: &T) -> Result<(), FunctionalError> {
+    pub(super) fn check_conditions<T: Scalar<Enclosure = E>>(&self, max: &T) -> Result<(), FunctionalError> {
         let mut last = (T::zero(), self.energy_and_force(&T::zero()));
-        vanishes::<T>(&last.1.value)?;
+        check_vanishes::<T>(&last.1.value)?;
         for i in 1..=16 {
-            let p = most * T::int(i) / T::int(16);
+            let p = max * T::int(i) / T::int(16);
             let w = self.energy_and_force(&p);
             if !is_finite::<T>(&w.derivative) {
                 continue;
             }
             let gained = &w.value - &last.1.value;
-            let further = p.enclose() - last.0.enclose();
+            let distance = p.enclose() - last.0.enclose();
             // The increase of a convex W is at most that for the last force, and at least that for the first.
             let conditions = [
                 (Condition::Monotone, w.derivative.clone()),
                 (Condition::Monotone, gained.clone()),
                 (Condition::Convex, &w.derivative - &last.1.derivative),
-                (Condition::Convex, &gained - &last.1.derivative * &further),
-                (Condition::Continuous, &w.derivative * &further - &gained),
+                (Condition::Convex, &gained - &last.1.derivative * &distance),
+                (Condition::Continuous, &w.derivative * &distance - &gained),
             ];
             // None of these is negative if the conditions hold.
             let mut violated = conditions.iter().filter(|(_, x)| T::sign(x) == Some(Ordering::Less));
             if let Some((condition, _)) = violated.next() {
-                return Err(broken(*condition, &p));
+                return Err(violation(*condition, &p));
             }
             last = (p, w);
         }
         Ok(())
     }
 
-    /// Encloses the root between 0 and `most`, until the width is at most `enough`, a sign is undecided, or
+    /// Encloses the root between 0 and `max`, until the width is at most `max_width`, a sign is undecided, or
     /// no number lies in between.
+    pub(super) fn root<T: Scalar<Enclosure = E>>(
+        &self,
+        max: &T,
+        max_width: &T,
+    ) -> Result<RootBracket<T>, FunctionalError> {
+        let mut lower = match self.side(&T::zero())? {
+            Side::Below(residual) => Endpoint { p: T::zero(), residual },
+            Side::Root | Side::Above(_) => return Ok(RootBracket::point(T::zero())),
+            Side::Undecided => return self.bracket_undecided(&T::zero(), &T::zero(), max),
+            Side::OutOfRange => return Err(violation(Condition::ZeroAtContact, &T::zero())),
+        };
+        // An overflow occurs only beyond the root.
+        let (mut p, mut overflow) = (max.clone(), max.clone());
+        for _ in 0..MAX_STEPS {
+            match self.side(&p)? {
+                Side::Above(residual) => return self.refine(lower, Endpoint { p, residual }, max_width),
+                Side::Root => return Ok(RootBracket::point(p)),
+                Side::Undecided => return self.bracket_undecided(&p, &lower.p, max),
+                Side::Below(residual) => lower = Endpoint { p, residual },
+                Side::OutOfRange => overflow = p,
+            }
+            p = middle(&lower.p, &overflow);
+            if p == lower.p || p == overflow {
+                return Ok(RootBracket { lower: lower.p, upper: max.clone(), is_complete: true });
+            }
+        }
+        Ok(RootBracket { lower: lower.p, upper: max.clone(), is_complete: false })
+    }
+
+    /// Narrows an interval with certain signs at its ends.
     ///
     /// Uses quadratic interval refinement (J. Abbott): tests the one of 2ⁿ cells in which the secant has its
     /// root, doubles n if the root is there, and otherwise sets n to 1. The tested numbers have few digits in
     /// every number system. The first one is the root of the secant itself, which is exact for ε p²/2.
-    pub(super) fn root<T: Scalar<Enclosure = E>>(
+    fn refine<T: Scalar<Enclosure = E>>(
         &self,
-        most: &T,
-        enough: &T,
+        mut lower: Endpoint<T>,
+        mut upper: Endpoint<T>,
+        max_width: &T,
     ) -> Result<RootBracket<T>, FunctionalError> {
-        let mut lower = match self.side(&T::zero())? {
-            Side::Below(size) => End { p: T::zero(), size },
-            Side::At | Side::Above(_) => return Ok(RootBracket::point(T::zero())),
-            Side::Near => return self.around(&T::zero(), &T::zero(), most),
-            Side::Nowhere => return Err(broken(Condition::ZeroAtContact, &T::zero())),
-        };
-        let (mut p, mut nowhere) = (most.clone(), most.clone());
-        let mut upper = None;
-        for _ in 0..MOST_STEPS {
-            match self.side(&p)? {
-                Side::Above(size) => {
-                    upper = Some(End { p, size });
-                    break;
-                }
-                Side::At => return Ok(RootBracket::point(p)),
-                Side::Near => return self.around(&p, &lower.p, most),
-                Side::Below(size) => lower = End { p, size },
-                // An overflow occurs only beyond the root.
-                Side::Nowhere => nowhere = p,
-            }
-            p = middle(&lower.p, &nowhere);
-            if p == lower.p || p == nowhere {
-                return Ok(RootBracket { lower: lower.p, upper: most.clone(), ended: true });
-            }
-        }
-        let Some(mut upper) = upper else {
-            return Ok(RootBracket { lower: lower.p, upper: most.clone(), ended: false });
-        };
-        let mut digits = 0;
-        for _ in 0..MOST_STEPS {
-            let cell = cell(&lower, &upper, digits, enough);
-            let mut moved = false;
+        let mut n = 0;
+        for _ in 0..MAX_STEPS {
+            let cell = cell(&lower, &upper, n, max_width);
+            let mut is_narrowed = false;
             for p in &cell {
                 if lower.p < *p && *p < upper.p {
-                    moved = true;
+                    is_narrowed = true;
                     match self.side(p)? {
-                        Side::Below(size) => lower = End { p: p.clone(), size },
-                        Side::Above(size) => upper = End { p: p.clone(), size },
-                        Side::At => return Ok(RootBracket::point(p.clone())),
-                        Side::Near | Side::Nowhere => return self.around(p, &lower.p, &upper.p),
+                        Side::Below(residual) => lower = Endpoint { p: p.clone(), residual },
+                        Side::Above(residual) => upper = Endpoint { p: p.clone(), residual },
+                        Side::Root => return Ok(RootBracket::point(p.clone())),
+                        Side::Undecided | Side::OutOfRange => {
+                            return self.bracket_undecided(p, &lower.p, &upper.p);
+                        }
                     }
                 }
             }
             // The interval is narrow enough, or no number lies in between.
-            if digits == 1 && !moved {
-                return Ok(RootBracket { lower: lower.p, upper: upper.p, ended: true });
+            if n == 1 && !is_narrowed {
+                return Ok(RootBracket { lower: lower.p, upper: upper.p, is_complete: true });
             }
-            let hit = moved && cell == [lower.p.clone(), upper.p.clone()];
-            digits = if hit { 2 * digits } else { 1 };
+            let contains_root = is_narrowed && cell == [lower.p.clone(), upper.p.clone()];
+            n = if contains_root { 2 * n } else { 1 };
         }
-        Ok(RootBracket { lower: lower.p, upper: upper.p, ended: false })
+        Ok(RootBracket { lower: lower.p, upper: upper.p, is_complete: false })
     }
 
     /// Returns the bounds next to a penetration with undecided sign, from bounds that are further away.
-    fn around<T: Scalar<Enclosure = E>>(
+    fn bracket_undecided<T: Scalar<Enclosure = E>>(
         &self,
         near: &T,
         lower: &T,
         upper: &T,
     ) -> Result<RootBracket<T>, FunctionalError> {
-        let (lower, k) = self.towards(near, lower, 1, |side| matches!(side, Side::Below(_)))?;
-        let (upper, _) = self.towards(near, upper, k, |side| matches!(side, Side::Above(_)))?;
-        Ok(RootBracket { lower, upper, ended: true })
+        let (lower, k) = self.nearest_certain(near, lower, 1, |side| matches!(side, Side::Below(_)))?;
+        let (upper, _) = self.nearest_certain(near, upper, k, |side| matches!(side, Side::Above(_)))?;
+        Ok(RootBracket { lower, upper, is_complete: true })
     }
 
     /// Returns the nearest of the numbers `near` + (`far` − `near`)/2ᵏ with a certain sign, and its k; `far`
     /// and 0 if there is none. The search begins with k = `first`.
-    fn towards<T: Scalar<Enclosure = E>>(
+    fn nearest_certain<T: Scalar<Enclosure = E>>(
         &self,
         near: &T,
         far: &T,
@@ -205,10 +210,10 @@ impl<'a, E: PositivePart> Equation<'a, E> {
             let p = halve_distance(near, far, k);
             Ok(p != *near && certain(self.side(&p)?))
         };
-        // The distance doubles in each step, towards the last such number.
-        let (mut certain, mut open, mut further) = (0, first.max(1), 1);
-        while open < MOST_DIGITS && holds(open)? {
-            (certain, open, further) = (open, open + further, 2 * further);
+        // The distance doubles in each step, up to the last such number.
+        let (mut certain, mut open, mut step) = (0, first.max(1), 1);
+        while open < MAX_BITS && holds(open)? {
+            (certain, open, step) = (open, open + step, 2 * step);
         }
         while open - certain > 1 {
             let k = certain + (open - certain) / 2;
@@ -223,25 +228,25 @@ fn halve_distance<T: Scalar>(near: &T, far: &T, k: u64) -> T {
     near + (far - near) * power(&half(&T::one()), k)
 }
 
-/// One bound of the interval that contains the root.
-struct End<T> {
+/// One end of the interval that contains the root.
+struct Endpoint<T> {
     p: T,
     /// Estimate of the residual there.
-    size: T,
+    residual: T,
 }
 
 /// Returns the cell, of 2ⁿ equal parts of the interval, that contains the root of the secant; fewer parts if
 /// they are narrow enough. For n = 0 returns that root.
-fn cell<T: Scalar>(lower: &End<T>, upper: &End<T>, digits: u64, enough: &T) -> [T; 2] {
-    let rise = &upper.size - &lower.size;
-    let mut part = if rise.is_invertible() { -&lower.size / rise } else { T::zero() };
+fn cell<T: Scalar>(lower: &Endpoint<T>, upper: &Endpoint<T>, n: u64, max_width: &T) -> [T; 2] {
+    let rise = &upper.residual - &lower.residual;
+    let mut part = if rise.is_invertible() { -&lower.residual / rise } else { T::zero() };
     let (mut left, mut width) = (lower.p.clone(), &upper.p - &lower.p);
-    if digits == 0 {
+    if n == 0 {
         let root = left + width * part;
         return [root.clone(), root];
     }
-    for _ in 0..digits {
-        if width <= *enough {
+    for _ in 0..n {
+        if width <= *max_width {
             break;
         }
         width = half(&width);
@@ -276,7 +281,7 @@ mod tests {
         let equation = Equation::new(Ball::point(1.0), two_thirds, &functional);
         let from = |far: f64, first: u64| {
             let certain = |side| matches!(side, Side::Below(_) | Side::Above(_));
-            equation.towards(&(1.0 / 3.0), &far, first, certain).unwrap()
+            equation.nearest_certain(&(1.0 / 3.0), &far, first, certain).unwrap()
         };
         for far in [0.0, 1.0, 0.25, 1.0 / 3.0 + 1e-12, (1.0f64 / 3.0).next_up()] {
             let (bound, k) = from(far, 1);

@@ -155,8 +155,8 @@ pub trait Scalar: OrderedField {
     fn is_finite(&self) -> bool;
 
     /// Returns the number of binary digits, as [`Exact::bit_length`](crate::number::Exact::bit_length) counts
-    /// them, of a number whose length grows with arithmetic. The default is 0, for numbers of constant length.
-    /// An augmentation whose multipliers become too long ends with an error.
+    /// them, of a number whose length grows with arithmetic. The default is 0, for numbers of constant
+    /// length. An augmentation whose multipliers become too long ends with an error.
     fn variable_bit_length(&self) -> u64 {
         0
     }

@@ -49,8 +49,8 @@ const PROFILES: &[Profile] = &[
     Profile::SubnormalDouble,
 ];
 
-/// Subnormal quantities of a case. The other quantities are scaled so that no force, and no quotient of a force
-/// and a stiffness, is rounded to 0; [`solve`](crate::solver::solve) returns an error for such a case.
+/// Subnormal quantities of a case. The other quantities are scaled so that no force, and no quotient of a
+/// force and a stiffness, is rounded to 0; [`solve`](crate::solver::solve) returns an error for such a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Small {
     /// c and ε.
@@ -121,9 +121,9 @@ impl CaseSampler {
         Exact::from(rug::Rational::from(mantissa) << self.between(low, high))
     }
 
-    /// Returns the number of bits of the mantissa and the range of the exponent, for a subnormal case of floats
-    /// of this precision, whose smallest number is 2^`smallest`. Subnormal numbers are multiples of four times
-    /// that number, so that a unit four times as large (note 8) changes no digit.
+    /// Returns the number of bits of the mantissa and the range of the exponent, for a subnormal case of
+    /// floats of this precision, whose smallest number is 2^`smallest`. Subnormal numbers are multiples of
+    /// four times that number, so that a unit four times as large (note 8) changes no digit.
     fn subnormal(&self, var: Var, float: usize, smallest: i32, precision: i32) -> (u32, i32, i32) {
         // Few digits, so that a product of two such numbers is small and not less than the smallest number.
         let digits = if self.small == Small::Products { 6 } else { 11 };

@@ -86,8 +86,8 @@ impl Tally {
         }
     }
 
-    /// Runs an experiment. A panic counts as a failure: rationals are divided by zero, or code relies on correct
-    /// formulas. An experiment only computes, so a panic leaves no inconsistent state.
+    /// Runs an experiment. A panic counts as a failure: rationals are divided by zero, or code relies on
+    /// correct formulas. An experiment only computes, so a panic leaves no inconsistent state.
     fn try_experiment<T>(&mut self, case: &Case<Exact>, experiment: &Experiment<T>, computed: &Case<T>) {
         match catch_unwind(AssertUnwindSafe(|| (experiment.check)(computed))) {
             Err(panic) => self.decide(case, false, Some(message(&*panic))),
@@ -226,8 +226,8 @@ pub(super) trait ErasedChecker: Sync {
     /// Returns the keys of all claims and experiments in order.
     fn keys(&self) -> Vec<ClaimKey>;
 
-    /// Checks the claims and experiments with these hypotheses that the options include, in cases that satisfy
-    /// the hypotheses. Each tally has the index of its claim.
+    /// Checks the claims and experiments with these hypotheses that the options include, in cases that
+    /// satisfy the hypotheses. Each tally has the index of its claim.
     fn check(
         &self,
         hypotheses: &[Hypothesis],
@@ -260,8 +260,8 @@ fn groups(claims: &[Statement]) -> Vec<Group> {
     groups
 }
 
-/// Returns the tests of a claim: those of its instances, and those of the steps of its induction for any q. The
-/// rate of a limit is tested in place of the limit.
+/// Returns the tests of a claim: those of its instances, and those of the steps of its induction for any q.
+/// The rate of a limit is tested in place of the limit.
 fn tests(claim: &Statement, program: &mut Program) -> Vec<(&'static str, Test)> {
     let steps = claim.goals().iter().filter(|goal| goal.role != Role::Claim);
     let steps = steps.map(|goal| Instance::new(goal.part, goal.proposition.clone()));

@@ -224,8 +224,8 @@ fn by_augmentation<T: Clone>(x: &Case<T>) -> Method<T> {
     Method::Augmented { penalty, tolerance, max_augmentations: STEPS as u64, start }
 }
 
-/// Checks that the exact |û − u*| is below the tolerance if the outcome is `converged`, and not above the floor
-/// if it is `stagnated`; that the bounds contain the limit; and that N ≥ 0.
+/// Checks that the exact |û − u*| is below the tolerance if the outcome is `converged`, and not above the
+/// floor if it is `stagnated`; that the bounds contain the limit; and that N ≥ 0.
 fn promise<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Trial {
     let (Ok(system), Ok(solution)) =
         (x.system.try_map(|y| y.to_exact()), solve(&x.system, &by_augmentation(x)))
@@ -285,13 +285,13 @@ fn scale<T: Scalar>(x: &T, n: i32) -> T {
     x.clone() * power_of_two::<T>(n)
 }
 
-/// Returns the iterates of (1.16) in rationals, at most [`STEPS`], and only while they have no more digits than
-/// correct formulas need: with wrong ones the number of digits can double in each step.
+/// Returns the iterates of (1.16) in rationals, at most [`STEPS`], and only while they have no more digits
+/// than correct formulas need: with wrong ones the number of digits can double in each step.
 ///
 /// The closed forms of λ_k and u_k are quotients of degree at most k + 1 in c and ε, and of degree 1 in all
-/// other quantities. If all parameters, numerators and denominators together, have s digits, then numerator and
-/// denominator of λ_k and of u_k have at most 2 (k + 1) s digits each, 8 (k + 1) s together. The rest is a
-/// margin for carries.
+/// other quantities. If all parameters, numerators and denominators together, have s digits, then numerator
+/// and denominator of λ_k and of u_k have at most 2 (k + 1) s digits each, 8 (k + 1) s together. The rest is
+/// a margin for carries.
 fn exact_steps<'a>(
     x: &'a Case<Exact>,
     start: &Exact,

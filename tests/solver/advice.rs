@@ -1,5 +1,5 @@
-//! Properties of advice: each recommended method reaches the tolerance in every scalar, near grazing as well;
-//! each guaranteed method is recommended; without a guarantee, no method reaches the tolerance.
+//! Properties of advice: each recommended method run_to_tolerance the tolerance in every scalar, near grazing as well;
+//! each guaranteed method is recommended; without a guarantee, no method run_to_tolerance the tolerance.
 
 use crate::strategies::*;
 use spring_mass_contact::chapter::{augmented, penalty, rounding};
@@ -27,8 +27,8 @@ fn with_few_bits_nothing_is_guaranteed() {
     let system = example().map(exact);
     for bits in 0..6 {
         for (eps, tolerance) in [("1", "1"), ("1e9", "1e9"), ("1e-9", "1e9"), ("1e9", "1e-9")] {
-            let promised = guaranteed_max_augmentations(&system, &q(eps), &q(tolerance), &eta_of(bits));
-            assert_eq!(promised, Ok(None), "{bits} bits");
+            let guaranteed = guaranteed_max_augmentations(&system, &q(eps), &q(tolerance), &eta_of(bits));
+            assert_eq!(guaranteed, Ok(None), "{bits} bits");
         }
     }
 }
@@ -74,12 +74,12 @@ fn advised<T: Scalar + ExactText>(system: &SpringMass<T>, tolerance: &T) -> Vec<
 /// R = 2, c = 4: p = R/(c + ε) is 1/4 for ε = 4, and smaller for the next number with two digits; it is
 /// 25/101 for ε = 4.08. For p < 1 no penalty is needed, since R/c = 1/2.
 #[test]
-fn the_softest_penalty_has_two_digits() {
+fn the_smallest_penalty_has_two_digits() {
     let system = example().map(exact);
-    for (tolerance, softest) in [("1/4", "4.1"), ("25/101", "4.1"), ("1", "40")] {
-        assert_eq!(advised(&system, &q(tolerance))[0], q(softest));
+    for (tolerance, smallest) in [("1/4", "4.1"), ("25/101", "4.1"), ("1", "40")] {
+        assert_eq!(advised(&system, &q(tolerance))[0], q(smallest));
     }
-    // The f64 beside 0.3 is less than that, and yet no softer than it may be.
+    // The f64 beside 0.3 is less than that, and yet not too small.
     let light = SpringMass { c: 1.0, m: 1.0, g: 1.295, l: 0.0, h: 0.0 };
     assert_eq!(advised(&light, &1.0)[0], 0.3);
     let least = |tolerance| penalty_for_penetration(&system, &q(tolerance)).unwrap();
@@ -107,26 +107,30 @@ fn a_separated_mass_accepts_any_penalty() {
     let floor = int(5) * eta_of(10);
     let more = &floor * (int(1) + Exact::power_of_two(-40));
     let [at, above] = [floor, more].map(|x| advise(&system, &x.to_mpfr(99)).unwrap().recommendations);
-    let softest = |choices: &[Recommendation<_>]| -> Vec<_> {
+    let smallest = |choices: &[Recommendation<_>]| -> Vec<_> {
         choices.iter().map(|choice| choice.penalty_range[0].as_ref().map(exact)).collect()
     };
-    assert_eq!(softest(&at), [None, None]);
-    assert_eq!(softest(&above), [None, None, Some(int(1))]);
+    assert_eq!(smallest(&at), [None, None]);
+    assert_eq!(smallest(&above), [None, None, Some(int(1))]);
     assert_eq!(above[1].method.penalty().map(exact), Some(int(10)));
 }
 
 // Laws.
 
 /// Returns the result of a run if it meets the tolerance and, for an iteration, reports it.
-fn reaches<T: Scalar + ToExact>(
+fn run_to_tolerance<T: Scalar + ToExact>(
     system: &SpringMass<T>,
     method: &Method<T>,
     tolerance: &Exact,
 ) -> Result<Solution<T>, String> {
     let solution = solve(system, method).map_err(|error| error.to_string())?;
-    let off = (exact(&solution.deflection) - resting(&system.map(exact))).abs();
-    let said = matches!(solution.outcome, Outcome::Direct | Outcome::Converged);
-    if said && off < *tolerance { Ok(solution) } else { Err(format!("off by {off}, {}", solution.outcome)) }
+    let error = (exact(&solution.deflection) - resting(&system.map(exact))).abs();
+    let is_met = matches!(solution.outcome, Outcome::Direct | Outcome::Converged);
+    if is_met && error < *tolerance {
+        Ok(solution)
+    } else {
+        Err(format!("error {error}, {}", solution.outcome))
+    }
 }
 
 /// Returns the method with another penalty.
@@ -162,7 +166,7 @@ fn within<T: Float>(choice: &Recommendation<T>, part: &Exact, like: &T) -> Vec<T
 
 /// Asserts that recommendations hold. If everything `fits` the range of the scalar, each guaranteed method
 /// must be present; otherwise penalties may be very small.
-fn keeps_its_word<T: Float + ExactText>(case: &Case<T>, tolerance: &Exact, fits: bool) {
+fn recommendations_hold<T: Float + ExactText>(case: &Case<T>, tolerance: &Exact, fits: bool) {
     let like = &case.eps;
     let rounded = like.round_from_exact(tolerance).ok();
     let Some(tolerance) = rounded.filter(|tolerance| *tolerance > T::zero()) else { return };
@@ -173,7 +177,8 @@ fn keeps_its_word<T: Float + ExactText>(case: &Case<T>, tolerance: &Exact, fits:
     for choice in &choices {
         let Recommendation { method, augmentations, penetration, force_error, relative_force_error, .. } =
             choice;
-        let solution = reaches(system, method, tol).unwrap_or_else(|error| panic!("{choice:?}: {error}"));
+        let solution =
+            run_to_tolerance(system, method, tol).unwrap_or_else(|error| panic!("{choice:?}: {error}"));
         assert_eq!(solution.augmentations, *augmentations);
         assert_eq!(&numbers.l + exact(&solution.deflection) - &numbers.h, *penetration);
         assert_eq!((exact(&solution.contact_force) - &force).abs(), *force_error);
@@ -183,7 +188,7 @@ fn keeps_its_word<T: Float + ExactText>(case: &Case<T>, tolerance: &Exact, fits:
         for eps in within(choice, &part, like) {
             // Without another limit, that of the scalar.
             let beyond = choice.penalty_range[1].is_none() && Some(&eps) > method.penalty();
-            if let Err(error) = reaches(system, &with_penalty_of(method, &eps), tol) {
+            if let Err(error) = run_to_tolerance(system, &with_penalty_of(method, &eps), tol) {
                 let out_of_range = beyond && error.contains("out of the range");
                 assert!(out_of_range, "ε = {eps:?} of {choice:?} at {tol}: {error}");
             }
@@ -197,7 +202,7 @@ fn keeps_its_word<T: Float + ExactText>(case: &Case<T>, tolerance: &Exact, fits:
         for eps in penalties.into_iter().chain([case.eps.clone()]) {
             let augmented = augmentation(eps.clone(), tolerance.clone(), 100, case.round(&int(0)));
             for method in [Method::Lagrange, Method::Penalty { penalty: eps }, augmented] {
-                assert!(reaches(system, &method, tol).is_err(), "{method:?} reaches {tol}");
+                assert!(run_to_tolerance(system, &method, tol).is_err(), "{method:?} run_to_tolerance {tol}");
             }
         }
     }
@@ -205,7 +210,7 @@ fn keeps_its_word<T: Float + ExactText>(case: &Case<T>, tolerance: &Exact, fits:
 
 /// The largest penalty: it increases the proved rounding bound by c tol, except for rounding it down, and a
 /// run has an error this small.
-fn hardest_is_not_too_hard<T: Float + ExactText>(case: &Case<T>) {
+fn largest_penalty_preserves_the_force<T: Float + ExactText>(case: &Case<T>) {
     let (numbers, eta, precision) = (case.system.map(exact), case.eta(), case.precision());
     let SpringMass { c, l, h, .. } = &numbers;
     let r = system::reaction(&numbers);
@@ -240,81 +245,81 @@ fn hardest_is_not_too_hard<T: Float + ExactText>(case: &Case<T>) {
                 power(&augmented::contraction(&numbers, &eps), solution.augmentations.unwrap() as u32);
             let exactly = augmented::multiplier_after(&numbers, &int(0), &decay);
             let rest = int(11) * &eta * (c + &eps) * &r / &eps;
-            let off = (exact(solution.multiplier.as_ref().unwrap()) - exactly).abs();
-            assert!(off <= &allowed + rest, "{choice:?}");
+            let error = (exact(solution.multiplier.as_ref().unwrap()) - exactly).abs();
+            assert!(error <= &allowed + rest, "{choice:?}");
         } else {
             let computed = exact(&penalty::contact_force(&case.system, to, &solution.deflection));
-            let off = (computed - penalty::contact_force_at_equilibrium(&numbers, &eps)).abs();
-            assert!(off <= &allowed + of_force(&int(0)), "{off} {choice:?}");
+            let error = (computed - penalty::contact_force_at_equilibrium(&numbers, &eps)).abs();
+            assert!(error <= &allowed + of_force(&int(0)), "{error} {choice:?}");
         }
     }
 }
 
 /// The smallest penalty is guaranteed, and the next smaller one is not; for the augmentation, one smaller by
 /// a ninth.
-fn softest_is_soft_enough<T: Float + ExactText>(case: &Case<T>) {
+fn smallest_penalty_suffices<T: Float + ExactText>(case: &Case<T>) {
     let (numbers, tol, eta) = (case.system.map(exact), exact(&case.tolerance), case.eta());
     if system::reaction(&numbers) <= int(0) {
         return;
     }
-    let off = |eps: &Exact| {
+    let error = |eps: &Exact| {
         penalty::penetration(&numbers, eps) + rounding::deflection_error(&numbers, eps, &case.precision())
     };
-    let arrives = |eps: &Exact| {
+    let converges_in_time = |eps: &Exact| {
         let most = guaranteed_max_augmentations(&numbers, eps, &tol, &eta).unwrap();
         most.is_some_and(|most| most <= MAX_AUGMENTATIONS)
     };
     for choice in advise(&case.system, &case.tolerance).unwrap().recommendations {
         match (&choice.method, &choice.penalty_range[0]) {
             (Method::Lagrange, from) => assert_eq!(*from, None),
-            (Method::Penalty { .. }, None) => assert!(off(&int(0)) <= tol),
+            (Method::Penalty { .. }, None) => assert!(error(&int(0)) <= tol),
             (Method::Penalty { .. }, Some(from)) => {
-                let softer = exact(&from.neighbours()[0]);
-                assert!(off(&exact(from)) <= tol && off(&softer) >= tol, "{choice:?}");
+                let smaller = exact(&from.neighbours()[0]);
+                assert!(error(&exact(from)) <= tol && error(&smaller) >= tol, "{choice:?}");
             }
             (Method::Augmented { .. }, from) => {
-                let from = exact(from.as_ref().expect("a softest one"));
-                assert!(arrives(&from) && !arrives(&(from * q("8/9"))), "{choice:?}");
+                let from = exact(from.as_ref().expect("a smallest one"));
+                assert!(converges_in_time(&from) && !converges_in_time(&(from * q("8/9"))), "{choice:?}");
             }
         }
     }
 }
 
 /// The guaranteed number of augmentations suffices, at the floor and far above it.
-fn promised_augmentations_do<T: Float>(case: &Case<T>) {
+fn guaranteed_augmentations_suffice<T: Float>(case: &Case<T>) {
     let (eta, numbers) = (case.eta(), case.system.map(exact));
-    // Where the promise begins: the least tolerance is affine in the drift (see `is_convergence_guaranteed`).
+    // The smallest guaranteed tolerance is affine in the drift (see `is_convergence_guaranteed`).
     let drift = rounding::penetration_drift(&numbers, &exact(&case.eps), &case.precision());
     let begins = (drift + &eta * numbers.h.abs()) / (int(1) - int(8) * &eta);
     for share in ["1001/1000", "3/2", "1000"].map(q) {
-        // Where ε is too soft for any bound of the drift, that formula is negative.
+        // If ε is too small for any bound of the drift, that formula is negative.
         let tolerance = case.eps.round_from_exact(&(&begins * share)).ok();
         let Some(tolerance) = tolerance.filter(|tolerance| *tolerance > T::zero()) else { continue };
-        let promised = guaranteed_max_augmentations(&case.system, &case.eps, &tolerance, &eta).unwrap();
-        let most = promised.and_then(|most| most.to_u64()).filter(|most| *most < 2000);
+        let guaranteed = guaranteed_max_augmentations(&case.system, &case.eps, &tolerance, &eta).unwrap();
+        let most = guaranteed.and_then(|most| most.to_u64()).filter(|most| *most < 2000);
         let Some(most) = most else { continue };
         let method = augmentation(case.eps.clone(), tolerance.clone(), most, case.round(&int(0)));
-        let found = reaches(&case.system, &method, &exact(&tolerance));
+        let found = run_to_tolerance(&case.system, &method, &exact(&tolerance));
         assert!(found.is_ok(), "{most} for {tolerance:?}: {found:?}");
     }
 }
 
 /// Tolerances of the size of the system, far below it, and at the floor.
 fn advice_holds<T: Float + ExactText>(case: &Case<T>) {
-    keeps_its_word(case, &exact(&case.tolerance), true);
+    recommendations_hold(case, &exact(&case.tolerance), true);
     // Without lengths there is a floor of underflow alone, and a penalty that meets it may not fit.
     let lengths = !(case.system.h.is_zero() && case.system.l.is_zero());
     let floor = floor_of(&case.system, &case.eta()).filter(|floor| lengths && !floor.is_zero());
     for (floor, share) in floor.iter().flat_map(|floor| ["1/2", "1.01", "2"].map(|share| (floor, share))) {
-        keeps_its_word(case, &(floor * q(share)), true);
+        recommendations_hold(case, &(floor * q(share)), true);
     }
 }
 
 in_every_float! {
     advice_holds from any_state;
-    hardest_is_not_too_hard from in_contact;
-    softest_is_soft_enough from in_contact;
-    promised_augmentations_do from in_contact;
+    largest_penalty_preserves_the_force from in_contact;
+    smallest_penalty_suffices from in_contact;
+    guaranteed_augmentations_suffice from in_contact;
 }
 
 /// Cases for which these laws failed once, in one of the floats.
@@ -323,10 +328,10 @@ fn advice_holds_for_recorded_cases() {
     fn holds_in<T: Float + ExactText>(case: &Case<Exact>, like: &T) {
         let case = case.rounded(like);
         advice_holds(&case);
-        promised_augmentations_do(&case);
+        guaranteed_augmentations_suffice(&case);
         if case.exact().reaction() > int(0) {
-            hardest_is_not_too_hard(&case);
-            softest_is_soft_enough(&case);
+            largest_penalty_preserves_the_force(&case);
+            smallest_penalty_suffices(&case);
         }
     }
     for recorded in [
@@ -336,7 +341,7 @@ fn advice_holds_for_recorded_cases() {
          --penalty 1/5764607523034234880 --initial-multiplier 0 --tolerance 3602879701896397/18014398509481984",
         "--stiffness 1 --mass 1 --gravity -536870905/6291456 --free-length -64 --height -448/3 --penalty 1 \
          --initial-multiplier 0 --tolerance 313174701/2097152",
-        // In 8 bits the softest penalty is too soft if it is rounded to nearest.
+        // In 8 bits the smallest penalty is too small if it is rounded to nearest.
         "--stiffness 65536 --mass 1/5 --gravity 589824 --free-length 196608 --height 196608 --penalty 65536 \
          --initial-multiplier 0 --tolerance 983049/671088640",
         "--stiffness 1 --mass 6 \
@@ -373,42 +378,46 @@ fn tiny<T: Float>(case: &Case<Exact>, [force, length, mass]: [i32; 3], like: &T)
 }
 
 /// Cases with underflowing products included; the whole range of a recommendation is tested.
-fn small_numbers_keep_their_word<T: Float + ExactText>(case: &Case<Exact>, scales: [i32; 3], like: &T) {
+fn recommendations_hold_for_small_numbers<T: Float + ExactText>(
+    case: &Case<Exact>,
+    scales: [i32; 3],
+    like: &T,
+) {
     let Some(case) = &tiny(case, scales, like) else { return };
-    keeps_its_word(case, &exact(&case.tolerance), false);
+    recommendations_hold(case, &exact(&case.tolerance), false);
     let (numbers, eta) = (case.system.map(exact), case.eta());
     // The law's own floor, which knows no underflow, and what is lost by it.
     let lengths = int(21) * &eta * (numbers.h.abs() + (&numbers.h - &numbers.l).abs());
     let floor = floor_of(&case.system, &eta).filter(|floor| !floor.is_zero());
     for from in [Some(lengths), floor].into_iter().flatten() {
         for share in ["1/4", "1.01", "8", "100"].map(q) {
-            keeps_its_word(case, &(&from * share), false);
+            recommendations_hold(case, &(&from * share), false);
         }
     }
-    // That is promised where mass and plane touch.
+    // This is guaranteed in contact and grazing.
     if system::reaction(&numbers) >= int(0) {
-        promised_augmentations_do(case);
+        guaranteed_augmentations_suffice(case);
     }
 }
 
 /// f32 is subnormal below 2⁻¹²⁶.
 #[test]
-fn small_f32s_keep_their_word() {
+fn recommendations_hold_for_small_f32s() {
     holds((any_state(NARROW), -150..-60, -130..20, -60..60), |(case, force, length, mass)| {
-        small_numbers_keep_their_word(case, [*force, *length, *mass], &1f32);
+        recommendations_hold_for_small_numbers(case, [*force, *length, *mass], &1f32);
     });
     // Without lengths, what underflows is all that is lost.
     let [c, m, g, eps, tolerance] = [(); 5].map(|()| int(1));
     let system = SpringMass { c, m, g, l: int(0), h: int(0) };
     let case = Case { system, eps, start: int(0), tolerance };
-    small_numbers_keep_their_word(&case, [-131, 0, 0], &1f32);
+    recommendations_hold_for_small_numbers(&case, [-131, 0, 0], &1f32);
 }
 
 /// f64 is subnormal below 2⁻¹⁰²².
 #[test]
-fn small_f64s_keep_their_word() {
+fn recommendations_hold_for_small_f64s() {
     holds((any_state(NARROW), -1070..-950, -1020..20, -60..60), |(case, force, length, mass)| {
-        small_numbers_keep_their_word(case, [*force, *length, *mass], &1f64);
+        recommendations_hold_for_small_numbers(case, [*force, *length, *mass], &1f64);
     });
 }
 
@@ -418,9 +427,9 @@ fn advice_holds_for_decimal_tolerances() {
     let law = |case: &Case<Exact>, digits: u32| {
         let tolerance = int(1) / power(&int(10), digits);
         // In f32 a penalty of R / tol may be too large.
-        keeps_its_word(&case.rounded(&1f32), &tolerance, digits < 20);
-        keeps_its_word(&case.rounded(&1f64), &tolerance, true);
-        keeps_its_word(&case.rounded(&float(200)), &tolerance, true);
+        recommendations_hold(&case.rounded(&1f32), &tolerance, digits < 20);
+        recommendations_hold(&case.rounded(&1f64), &tolerance, true);
+        recommendations_hold(&case.rounded(&float(200)), &tolerance, true);
     };
     holds((any_state(NARROW), 3u32..=40), move |(case, digits)| law(case, *digits));
     // It failed once for these.
@@ -434,7 +443,7 @@ fn advice_holds_for_decimal_tolerances() {
     }
 }
 
-/// With the bits that are said to be needed there is a choice of every method; with one less not for certain.
+/// The required precision suffices for a recommendation of each method; one bit fewer does not guarantee it.
 #[test]
 fn required_bits_suffice() {
     holds((any_state(WIDE), 3u32..=400), |(case, digits)| {
@@ -450,16 +459,16 @@ fn required_bits_suffice() {
     });
 }
 
-/// Rationals round nothing: every tolerance is met, and the softest penalty is that of Remark 1.3.2.
+/// Rationals are not rounded: every tolerance is met, and the smallest penalty is that of Remark 1.3.2.
 #[test]
-fn rationals_reach_everything() {
+fn rationals_meet_every_tolerance() {
     holds(any_state(WIDE), |case| {
         let Case { system: s, tolerance, .. } = case;
         let (r, Advice { recommendations: choices, floor, .. }) =
             (case.reaction(), advise(s, tolerance).unwrap());
         assert_eq!((floor, choices.len()), (Some(int(0)), 3));
         for choice in &choices {
-            assert!(reaches(s, &choice.method, tolerance).is_ok());
+            assert!(run_to_tolerance(s, &choice.method, tolerance).is_ok());
             assert!(choice.augmentations.is_none_or(|k| k <= MAX_AUGMENTATIONS));
         }
         let [of_penalty, of_augmentation] = [1, 2].map(|i| choices[i].penalty_range[0].as_ref());

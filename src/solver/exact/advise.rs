@@ -253,8 +253,8 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
         Some(Recommendation { penalty_range: [min, max], ..recommendation })
     }
 
-    /// Returns a limit of the range of ε, rounded inwards; or ε itself if the result is not beyond ε, or if the
-    /// method does not meet the tolerance there, because underflow or overflow invalidates the law.
+    /// Returns a limit of the range of ε, rounded inwards; or ε itself if the result is not beyond ε, or if
+    /// the method does not meet the tolerance there, because underflow or overflow invalidates the law.
     fn confirmed_limit(
         &self,
         limit: &Exact,

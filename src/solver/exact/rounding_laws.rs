@@ -7,8 +7,8 @@
 //! Notation: η is the unit roundoff of numbers of p bits, Δ = H − l, R = m g − c Δ, and
 //! F = η (|H| + |Δ| + R/ε) is the scale of the floor. Hats mark computed quantities.
 //!
-//! The page excludes underflow. Machine floats do underflow: below their smallest normal number ν, a result is
-//! rounded by up to η ν, whatever its magnitude. Where a law needs it, the functions require numbers of at
+//! The page excludes underflow. Machine floats do underflow: below their smallest normal number ν, a result
+//! is rounded by up to η ν, whatever its magnitude. Where a law needs it, the functions require numbers of at
 //! least ν or increase a bound.
 
 use super::count::count;
@@ -18,8 +18,8 @@ use crate::number::{Exact, NumberSystem, PositivePart, ToExact};
 use num_traits::{One, Zero};
 use rug::Integer;
 
-/// Returns the smallest normal number ν of a scalar: numbers from ν on have full precision. It is 0 except for
-/// machine floats, since the exponents of other numbers are practically unlimited.
+/// Returns the smallest normal number ν of a scalar: numbers from ν on have full precision. It is 0 except
+/// for machine floats, since the exponents of other numbers are practically unlimited.
 pub(super) fn min_normal<T: ToExact>(like: &T) -> Exact {
     match like.number_system() {
         NumberSystem::F32 => exact(&f32::MIN_POSITIVE),
@@ -76,12 +76,12 @@ impl RoundingLaws {
 
     // Section "One operation": fl(x) = x (1 + γ e). Below ν this is true of sums, but not of products.
 
-    /// Returns `true` if the weight and the lengths have full precision: m g is 0 or at least ν; H and l are 0
-    /// or at least 4 ν/η.
+    /// Returns `true` if the weight and the lengths have full precision: m g is 0 or at least ν; H and l are
+    /// 0 or at least 4 ν/η.
     ///
-    /// The weight is then rounded by at most η relative to itself. And l + û, or û − H if l = 0, is the same for
-    /// all |û| < ν as for û = 0, so that an underflow of û has no effect. (If H = l = 0, û is p̂, and within
-    /// the tolerance by then.)
+    /// The weight is then rounded by at most η relative to itself. And l + û, or û − H if l = 0, is the same
+    /// for all |û| < ν as for û = 0, so that an underflow of û has no effect. (If H = l = 0, û is p̂, and
+    /// within the tolerance by then.)
     fn parameters_are_normal(&self) -> bool {
         let RoundingLaws { system, eta, min_normal, .. } = self;
         let min_length = Exact::from(4) * min_normal / eta;
@@ -99,8 +99,8 @@ impl RoundingLaws {
 
     /// Returns the smallest tolerance without underflow, 4 ν.
     ///
-    /// A result below ν is rounded by up to η ν. Six times that is less than 3 η of this tolerance, the margin
-    /// of [`attainable_tolerance`](Self::attainable_tolerance).
+    /// A result below ν is rounded by up to η ν. Six times that is less than 3 η of this tolerance, the
+    /// margin of [`attainable_tolerance`](Self::attainable_tolerance).
     fn min_normal_tolerance(&self) -> Exact {
         Exact::from(4) * &self.min_normal
     }
@@ -109,8 +109,8 @@ impl RoundingLaws {
 
     /// Returns the limit above which every penalty meets the tolerance by (1.13); `None` if none does.
     ///
-    /// The distance from the plane is p plus the error of û. As functions of p = R/(c + ε) both are affine, so
-    /// two penalties determine the p at which their sum is the tolerance.
+    /// The distance from the plane is p plus the error of û. As functions of p = R/(c + ε) both are affine,
+    /// so two penalties determine the p at which their sum is the tolerance.
     fn min_penalty(&self, system: &SpringMass<Exact>, tolerance: &Exact) -> Option<Exact> {
         let [(p, distance), (other_p, other_distance)] = [1, 2].map(|eps| {
             let eps = Exact::from(eps);
@@ -137,8 +137,8 @@ impl RoundingLaws {
     }
 
     /// Returns the largest stiffness for which the error of a force, in N, is at most c tol, if it is
-    /// proportional to the stiffness; `None` if there is no error. Returns 0 if underflow is possible, since no
-    /// penalty is then known to be small enough.
+    /// proportional to the stiffness; `None` if there is no error. Returns 0 if underflow is possible, since
+    /// no penalty is then known to be small enough.
     fn max_stiffness(&self, error_per_stiffness: &Exact, tolerance: &Exact) -> Option<Exact> {
         let allowed = &self.system.c * tolerance;
         if !self.parameters_are_normal() || allowed < self.min_normal {
@@ -194,11 +194,11 @@ impl RoundingLaws {
     /// Returns the tolerance that a separated mass meets for ε ≥ c, given the floor in contact: 5 η |m g/c|,
     /// and near grazing the sum of both.
     ///
-    /// The computed deflection is û = min(â, b̂) of a = m g/c and b = (m g + ε Δ)/(c + ε). By the law, the error
-    /// of û is at most η (2 |a| + 8 (|Δ| + |R|/(c + ε))), and the natural residual, which is p̂ if that is
-    /// positive, is at most η (3 |a| + |H|). The bound of û, a ball around â, adds its radius, 2 η |a|. Far
-    /// from grazing û is â with an error of 2 η |a|: b − a = |R| ε/(c (c + ε)) is at least |R|/(2 c), and at
-    /// least the last term of the error of b̂, to first order η (5 |Δ| + 4 |R|/(c + ε)).
+    /// The computed deflection is û = min(â, b̂) of a = m g/c and b = (m g + ε Δ)/(c + ε). By the law, the
+    /// error of û is at most η (2 |a| + 8 (|Δ| + |R|/(c + ε))), and the natural residual, which is p̂ if that
+    /// is positive, is at most η (3 |a| + |H|). The bound of û, a ball around â, adds its radius, 2 η |a|.
+    /// Far from grazing û is â with an error of 2 η |a|: b − a = |R| ε/(c (c + ε)) is at least |R|/(2 c), and
+    /// at least the last term of the error of b̂, to first order η (5 |Δ| + 4 |R|/(c + ε)).
     fn separated_floor(&self, contact_floor: Exact) -> Exact {
         let RoundingLaws { system, eta, .. } = self;
         let floor = Exact::from(5) * eta * structure::deflection(system).abs();
@@ -229,8 +229,8 @@ impl RoundingLaws {
             && *tolerance > self.attainable_tolerance(&self.penetration_drift(eps))
     }
 
-    /// Returns an upper bound on the number of augmentations until this tolerance is met with this penalty, if
-    /// it is guaranteed.
+    /// Returns an upper bound on the number of augmentations until this tolerance is met with this penalty,
+    /// if it is guaranteed.
     ///
     /// It is the first k at which the exact penetration is below the tolerance less the attainable one.
     pub(super) fn max_augmentations(

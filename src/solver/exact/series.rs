@@ -87,6 +87,6 @@ fn enclose_root(
     let higher = higher.collect::<Result<Vec<_>, _>>().ok()?;
     let functional = |p: &Dual<_>| penalty::series(&eps, &higher, p);
     let equation = Equation::new(c?, reaction?, &functional);
-    let most: Mpfr = equation.most().ok()?;
-    equation.root(&most, &Mpfr::zero()).ok()
+    let max: Mpfr = equation.max_penetration().ok()?;
+    equation.root(&max, &Mpfr::zero()).ok()
 }

@@ -111,8 +111,8 @@ impl RoundingClaim {
         }
     }
 
-    /// Evaluates the claim with computed numbers; `None` if a hypothesis does not hold, or if a number is out of
-    /// range.
+    /// Evaluates the claim with computed numbers; `None` if a hypothesis does not hold, or if a number is out
+    /// of range.
     fn trial<T: Scalar + Real + ToExact>(&self, case: &Case<T>) -> Option<Trial> {
         let mut numbers = Numbers { case: Cow::Borrowed(case), floats: floats(case)? };
         if self.repeats {
