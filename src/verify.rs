@@ -23,7 +23,7 @@ use crate::claims::{Case, Var, claims, index_of, registry, statements};
 use crate::eval::{Balls, Point, Rationals};
 use crate::formula::{Hypothesis, Statement};
 use crate::number::{Exact, Mpfr, NumberSystem};
-use checker::{Checker, ErasedChecker, Tally};
+use checker::{Checker, ClaimTally, ErasedChecker};
 pub use coq::coq;
 pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
 use num_traits::One;
@@ -117,11 +117,12 @@ impl serde::Serialize for VerificationReport {
     fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
         #[derive(serde::Serialize)]
-        struct Equation<'a> {
+        struct EquationResults<'a> {
             equation: &'static str,
             claims: &'a [ClaimResult],
         }
-        let equations = self.by_equation().map(|claims| Equation { equation: claims[0].equation, claims });
+        let equations =
+            self.by_equation().map(|claims| EquationResults { equation: claims[0].equation, claims });
         let mut report = to.serialize_struct("VerificationReport", 3)?;
         report.serialize_field("summary", &self.summary())?;
         report.serialize_field("shared", &self.shared)?;
@@ -278,7 +279,7 @@ fn tallies(
     checkers: &[(NumberSystem, Box<dyn ErasedChecker>)],
     options: &Options,
     progress: &(dyn Fn(usize, usize) + Sync),
-) -> Vec<Vec<Tally>> {
+) -> Vec<Vec<ClaimTally>> {
     let mut groups: Vec<Vec<Hypothesis>> = Vec::new();
     for (_, checker) in checkers {
         for key in checker.keys() {
@@ -289,15 +290,15 @@ fn tallies(
     }
     let blocks = options.cases.div_ceil(BLOCK);
     let (done, all) = (AtomicUsize::new(0), (blocks as usize).saturating_mul(groups.len()));
-    let mut totals: Vec<Vec<Tally>> =
-        checkers.iter().map(|(_, c)| c.keys().iter().map(|_| Tally::default()).collect()).collect();
+    let mut totals: Vec<Vec<ClaimTally>> =
+        checkers.iter().map(|(_, c)| c.keys().iter().map(|_| ClaimTally::default()).collect()).collect();
     // Blocks are processed in windows, so that memory does not grow with the number of cases.
     for window in (0..blocks).step_by(WINDOW) {
         let window = window..blocks.min(window + WINDOW as u64);
         let jobs: Vec<(u64, &Vec<Hypothesis>)> =
             window.flat_map(|b| groups.iter().map(move |g| (b, g))).collect();
         // For each job and each checker, the tallies of the claims with the job's hypotheses.
-        let results: Vec<Vec<Vec<(usize, Tally)>>> = jobs
+        let results: Vec<Vec<Vec<(usize, ClaimTally)>>> = jobs
             .par_iter()
             .map(|(block, hypotheses)| {
                 let indices = block * BLOCK..(block * BLOCK).saturating_add(BLOCK).min(options.cases);

@@ -28,12 +28,12 @@ mod examples;
 #[cfg(feature = "prover")]
 mod gallina;
 #[cfg(feature = "prover")]
-mod laws;
-#[cfg(feature = "prover")]
 mod mutation;
 #[cfg(feature = "prover")]
 mod proofs;
 #[cfg(feature = "prover")]
 mod recording;
+#[cfg(feature = "prover")]
+mod rounding;
 #[cfg(feature = "prover")]
 mod typesetting;

@@ -3,7 +3,7 @@
 //! Rounding to p ≥ 2 bits has a relative error of at most η = 2⁻ᵖ; underflow and overflow are excluded. The
 //! bounds are for the parameters as rounded, and for the functions of the other modules, computed in their
 //! order of operations. Each bound is proved: it is a claim about the formula whose error it bounds, in the
-//! same entry.
+//! entry of that formula.
 
 use super::{SpringMass, penalty, system};
 use crate::number::{Field, PositivePart};

@@ -16,7 +16,7 @@ macro_rules! formulas {
        $([$part:literal: $pattern:pat_param => $value:expr])? $(.$with:ident($($of:literal)?))*;)*) => {
         /// Returns the section's functions with their values in a number system.
         #[allow(unused_variables, reason = "some functions have no arguments but the parameters")]
-        pub(super) fn formulas<T>(symbol: &impl Fn(&'static str) -> T) -> Vec<crate::claims::formulas::Value<T>>
+        pub(super) fn formulas<T>(symbol: &impl Fn(&'static str) -> T) -> Vec<crate::claims::formulas::RecordedValue<T>>
         where
             T: crate::number::PositivePart + crate::number::Exponential,
         {
@@ -26,7 +26,7 @@ macro_rules! formulas {
                 let $x = |name| crate::claims::formulas::argument(name, symbol, &arguments);
                 let value = $module::$name($($argument),*);
                 $(let $pattern = value; let value = $value;)?
-                crate::claims::formulas::Value {
+                crate::claims::formulas::RecordedValue {
                     value,
                     arguments: arguments.into_inner(),
                     formula: |arguments, tree| {
@@ -42,7 +42,7 @@ macro_rules! formulas {
 pub(super) use formulas;
 
 /// A value of a function of the chapter.
-pub(super) struct Value<T> {
+pub(super) struct RecordedValue<T> {
     pub(super) value: T,
     /// Names of the arguments, except for the five parameters.
     pub(super) arguments: Vec<&'static str>,
@@ -61,7 +61,7 @@ pub(super) fn argument<T>(
 }
 
 /// Returns the functions of all sections with their values in a number system, each after those it calls.
-fn values<T: PositivePart + Exponential>(symbol: &impl Fn(&'static str) -> T) -> Vec<Value<T>> {
+fn values<T: PositivePart + Exponential>(symbol: &impl Fn(&'static str) -> T) -> Vec<RecordedValue<T>> {
     let mut all = system::formulas(symbol);
     all.extend(structure::formulas(symbol));
     all.extend(contact::formulas(symbol));

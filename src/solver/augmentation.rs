@@ -94,7 +94,7 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
     }
 
     fn step_by_functions(&mut self) -> Iterate<T> {
-        let step = Step::of(self.plane, self.system, self.penalty, &self.multiplier);
+        let step = StepResult::of(self.plane, self.system, self.penalty, &self.multiplier);
         let free = step.free.is_some_and(|free| step.deflection >= free);
         Iterate {
             k: self.k,
@@ -144,7 +144,7 @@ impl<T: OrderedField> Iterator for Augmentation<'_, T> {
 }
 
 /// Results of one step for a given λ.
-struct Step<T> {
+struct StepResult<T> {
     deflection: T,
     penetration: T,
     /// Contact force if the mass is not separated.
@@ -155,7 +155,7 @@ struct Step<T> {
     free: Option<T>,
 }
 
-impl<T: PositivePart> Step<T> {
+impl<T: PositivePart> StepResult<T> {
     /// Computes the step with the chapter's functions.
     fn of(plane: Plane, system: &SpringMass<T>, penalty: &T, lambda: &T) -> Self {
         let (u, force, next, free) = match plane {
@@ -172,7 +172,7 @@ impl<T: PositivePart> Step<T> {
                 (u, force, next, None)
             }
         };
-        Step {
+        StepResult {
             penetration: contact::penetration(system, &u),
             deflection: u,
             contact_force: force,
@@ -187,7 +187,7 @@ struct Record {
     program: Program,
     /// Places of λ and of the results in the program.
     multiplier: usize,
-    step: Step<usize>,
+    step: StepResult<usize>,
 }
 
 const ELEMENTARY: &str = "a step contains only arithmetic, ⟨·⟩ and min";
@@ -205,10 +205,10 @@ impl Record {
     fn new(plane: Plane) -> Self {
         let system = SpringMass::SYMBOLS.map(|name| Tree::symbol(name));
         let [penalty, lambda] = ["ε", "λ"].map(|name| Tree::symbol(name));
-        let step = Step::of(plane, &system, &penalty, &lambda);
+        let step = StepResult::of(plane, &system, &penalty, &lambda);
         let mut program = Program::default();
         let multiplier = program.add(&lambda);
-        let step = Step {
+        let step = StepResult {
             deflection: program.add(&step.deflection),
             penetration: program.add(&step.penetration),
             contact_force: program.add(&step.contact_force),

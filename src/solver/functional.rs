@@ -1,6 +1,6 @@
 //! User-defined penalty functionals (§1.3.2): their conditions and their equilibrium.
 
-use super::root::{Equation, RootBracket, middle, reduced_system};
+use super::root::{PenaltyEquation, RootBracket, middle, reduced_system};
 use super::validate::{self, SolveError};
 use super::{Bounds, Interval, Method, Outcome, Scalar, Solution, State, solve, to_interval};
 use crate::chapter::{SpringMass, augmented, contact, structure, system};
@@ -138,7 +138,7 @@ fn solve_in_contact<T: Scalar>(
 ) -> Result<Solution<T>, FunctionalError> {
     let enclosed = system.map(T::enclose);
     let reaction = system::reaction(&enclosed);
-    let equation = Equation::new(enclosed.c.clone(), reaction, functional);
+    let equation = PenaltyEquation::new(enclosed.c.clone(), reaction, functional);
     let max = equation.max_penetration()?;
     equation.check_conditions(&max)?;
     let RootBracket { lower, upper, is_complete } = equation.root(&max, tolerance)?;

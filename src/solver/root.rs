@@ -14,7 +14,7 @@ pub(super) fn reduced_system<E: PositivePart>(c: E, reaction: E) -> SpringMass<E
 }
 
 /// The equation c p + W′(p) = R, for R > 0.
-pub(super) struct Equation<'a, E> {
+pub(super) struct PenaltyEquation<'a, E> {
     pub(super) spring: SpringMass<E>,
     // Not generic, so that the search is compiled once for each number system.
     functional: &'a dyn Fn(&Dual<E>) -> Dual<E>,
@@ -52,9 +52,9 @@ const MAX_STEPS: u32 = 10_000;
 /// Largest number of significant binary digits.
 const MAX_BITS: u64 = 1 << 22;
 
-impl<'a, E: PositivePart> Equation<'a, E> {
+impl<'a, E: PositivePart> PenaltyEquation<'a, E> {
     pub(super) fn new(c: E, reaction: E, functional: &'a dyn Fn(&Dual<E>) -> Dual<E>) -> Self {
-        Equation { spring: reduced_system(c, reaction), functional }
+        PenaltyEquation { spring: reduced_system(c, reaction), functional }
     }
 
     /// Returns R/c, rounded up; no penetration is larger, since W′ ≥ 0.
@@ -278,7 +278,7 @@ mod tests {
     fn a_bound_is_the_same_from_wherever_it_is_looked_for() {
         let two_thirds = Ball::point(2.0) / Ball::point(3.0);
         let functional = |p: &Dual<Ball<f64>>| p * p / Dual::constant(Ball::point(2.0));
-        let equation = Equation::new(Ball::point(1.0), two_thirds, &functional);
+        let equation = PenaltyEquation::new(Ball::point(1.0), two_thirds, &functional);
         let from = |far: f64, first: u64| {
             let certain = |side| matches!(side, Side::Below(_) | Side::Above(_));
             equation.nearest_certain(&(1.0 / 3.0), &far, first, certain).unwrap()

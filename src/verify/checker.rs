@@ -47,7 +47,7 @@ impl ClaimKey {
 
 /// Results of the cases of a claim.
 #[derive(Default)]
-pub(super) struct Tally {
+pub(super) struct ClaimTally {
     decided: u64,
     undecided: u64,
     worst: Option<(f64, String)>,
@@ -55,9 +55,9 @@ pub(super) struct Tally {
     failure: Option<(Case<Exact>, Option<String>)>,
 }
 
-impl Tally {
+impl ClaimTally {
     /// Adds the tally of later cases.
-    pub(super) fn add(&mut self, other: Tally) {
+    pub(super) fn add(&mut self, other: ClaimTally) {
         self.decided += other.decided;
         self.undecided += other.undecided;
         if other.worst.as_ref().is_some_and(|(ratio, _)| self.worst.as_ref().is_none_or(|(r, _)| ratio > r)) {
@@ -233,7 +233,7 @@ pub(super) trait ErasedChecker: Sync {
         hypotheses: &[Hypothesis],
         options: &Options,
         cases: &[Option<Case<Exact>>],
-    ) -> Vec<(usize, Tally)>;
+    ) -> Vec<(usize, ClaimTally)>;
 }
 
 /// Claims with the same hypotheses, which are checked on the same cases.
@@ -310,7 +310,7 @@ impl<D: NumberDomain> ErasedChecker for Checker<D> {
         hypotheses: &[Hypothesis],
         options: &Options,
         cases: &[Option<Case<Exact>>],
-    ) -> Vec<(usize, Tally)> {
+    ) -> Vec<(usize, ClaimTally)> {
         let offset = self.claims.len();
         let group = self.groups.iter().find(|group| group.hypotheses == hypotheses);
         let mut claims: Vec<_> = group.map_or(&[][..], |group| &group.claims).iter().collect();
@@ -318,7 +318,8 @@ impl<D: NumberDomain> ErasedChecker for Checker<D> {
         let mut experiments: Vec<_> = self.experiments.iter().enumerate().collect();
         experiments.retain(|(_, e)| e.hypotheses == hypotheses && options.includes(e.equation));
         let places = claims.iter().map(|(i, _)| *i).chain(experiments.iter().map(|(i, _)| offset + i));
-        let mut tallies: Vec<(usize, Tally)> = places.map(|place| (place, Tally::default())).collect();
+        let mut tallies: Vec<(usize, ClaimTally)> =
+            places.map(|place| (place, ClaimTally::default())).collect();
         if tallies.is_empty() {
             return tallies;
         }

@@ -196,7 +196,7 @@ fn series_root<T: Scalar + Real + ToExact>(
     else {
         return Trial::Undecided;
     };
-    let Ok(root) = root(&x.system, &x.eps, &[x.eps4.clone()]) else { return Trial::Undecided };
+    let Ok(root) = root(&x.system, &x.eps, std::slice::from_ref(&x.eps4)) else { return Trial::Undecided };
     // A zero without a precision has no neighbours.
     if root.is_zero() {
         let at_root = exact_series_residual(&system, &eps, &eps4, &root);

@@ -52,7 +52,7 @@ pub fn is_convergence_guaranteed<T: Scalar + ToExact>(
 ) -> Result<bool, SolveError> {
     validate_arguments(system, eps, tolerance, unit_roundoff)?;
     let laws = RoundingLaws::new(&system.map(exact), unit_roundoff, &min_normal(&system.c));
-    Ok(laws.is_none_or(|laws| laws.guarantee_convergence(&exact(eps), &exact(tolerance))))
+    Ok(laws.is_none_or(|laws| laws.is_convergence_guaranteed(&exact(eps), &exact(tolerance))))
 }
 
 /// Returns an upper bound on the number of augmentations that floats of this unit roundoff need to meet the

@@ -156,9 +156,9 @@ impl RoundingLaws {
         Exact::from(64) * stiffness <= eps * (&self.two_to_p + Exact::one())
     }
 
-    /// Returns `true` if some penalty satisfies this condition: c + ε > ε, so 2ᵖ + 1 must exceed 64.
-    fn drift_can_be_bounded(&self) -> bool {
-        self.two_to_p > Exact::from(63)
+    /// Returns `true` if no penalty satisfies this condition: c + ε > ε, so 2ᵖ + 1 must exceed 64.
+    fn drift_is_never_bounded(&self) -> bool {
+        self.two_to_p <= Exact::from(63)
     }
 
     /// Bounds the drift of the penetration: 20 F + ν (2 + 1/ε).
@@ -221,7 +221,7 @@ impl RoundingLaws {
 
     /// Returns `true` if the laws guarantee that an augmentation from λ₀ = 0 with this penalty meets this
     /// tolerance.
-    pub(super) fn guarantee_convergence(&self, eps: &Exact, tolerance: &Exact) -> bool {
+    pub(super) fn is_convergence_guaranteed(&self, eps: &Exact, tolerance: &Exact) -> bool {
         self.drift_is_bounded(eps)
             && self.parameters_are_normal()
             && self.gap_force_is_normal(eps)
@@ -239,7 +239,7 @@ impl RoundingLaws {
         tolerance: &Exact,
     ) -> Result<Option<Integer>, SolveError> {
         // Few bits guarantee no tolerance, and 1 − 8 η can be 0.
-        if !self.guarantee_convergence(eps, tolerance) {
+        if !self.is_convergence_guaranteed(eps, tolerance) {
             return Ok(None);
         }
         let margin = tolerance - self.attainable_tolerance(&self.penetration_drift(eps));
@@ -269,7 +269,7 @@ impl RoundingLaws {
         let is_separated = plane == Plane::Unilateral && self.is_mirrored;
         let is_normal =
             self.parameters_are_normal() && (!is_separated || self.gap_force_is_normal(&self.system.c));
-        if !self.drift_can_be_bounded() || !is_normal {
+        if self.drift_is_never_bounded() || !is_normal {
             return None;
         }
         let floor = self.attainable_tolerance(&self.limiting_penetration_drift());

@@ -1,6 +1,6 @@
 //! Equilibrium of a penalty functional with higher terms (1.10), to the last bit.
 
-use super::root::{Equation, RootBracket};
+use super::root::{PenaltyEquation, RootBracket};
 use super::{Scalar, SolveError, State, validate};
 use crate::chapter::{SpringMass, penalty, system};
 use crate::number::{Ball, Dual, Exact, Mpfr, PositivePart, Real, ToExact};
@@ -86,7 +86,7 @@ fn enclose_root(
     let higher = higher.iter().map(|x| Ball::enclosing(&like, x).map(Dual::constant));
     let higher = higher.collect::<Result<Vec<_>, _>>().ok()?;
     let functional = |p: &Dual<_>| penalty::series(&eps, &higher, p);
-    let equation = Equation::new(c?, reaction?, &functional);
+    let equation = PenaltyEquation::new(c?, reaction?, &functional);
     let max: Mpfr = equation.max_penetration().ok()?;
     equation.root(&max, &Mpfr::zero()).ok()
 }

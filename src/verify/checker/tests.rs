@@ -18,7 +18,7 @@ fn int(n: i32) -> Tree {
 }
 
 /// Returns the tally of a claim for one case in a number system.
-fn tally<D: NumberDomain>(domain: D, case: Case<Exact>, claim: Statement) -> Tally {
+fn tally<D: NumberDomain>(domain: D, case: Case<Exact>, claim: Statement) -> ClaimTally {
     let hypotheses = claim.stated_hypotheses().to_vec();
     let checker = Checker::with(domain, [&claim], Vec::new());
     let mut tallies = checker.check(&hypotheses, &Options::default(), &[Some(case)]);
@@ -109,16 +109,16 @@ fn the_ratio_of_an_error_to_a_bound_of_zero_is_infinite() {
 
 #[test]
 fn one_failed_case_fails_a_claim_and_no_decided_case_leaves_it_undecided() {
-    let row = |tally: Tally| {
+    let row = |tally: ClaimTally| {
         tally.into_result(
             ClaimKey { equation: "1.1", claim: "claim", kind: "equal", hypotheses: vec![] },
             None,
         )
     };
-    let held = Tally { decided: 1, undecided: 5, ..Tally::default() };
+    let held = ClaimTally { decided: 1, undecided: 5, ..ClaimTally::default() };
     let failure = super::super::cases::case(1, 0, &[]).map(|case| (case, Some("why".to_string())));
-    let failed = Tally { decided: 7, failure, ..Tally::default() };
-    assert_eq!(row(Tally { undecided: 5, ..Tally::default() }).status, Status::Undecided);
+    let failed = ClaimTally { decided: 7, failure, ..ClaimTally::default() };
+    assert_eq!(row(ClaimTally { undecided: 5, ..ClaimTally::default() }).status, Status::Undecided);
     assert_eq!(row(held).status, Status::Held);
     let failed = row(failed);
     assert_eq!((failed.status, failed.reason.as_deref()), (Status::Failed, Some("why")));
@@ -139,11 +139,11 @@ fn a_bound_is_formatted_without_loss() {
 #[test]
 fn the_worst_share_is_recorded() {
     let measured = |all: &[(f64, &'static str)]| {
-        let mut tally = Tally::default();
+        let mut tally = ClaimTally::default();
         all.iter().for_each(|(ratio, bound)| tally.measure(*ratio, || bound.to_string()));
         tally
     };
-    let worst = |tally: Tally| tally.worst.map(|(_, bound)| bound);
+    let worst = |tally: ClaimTally| tally.worst.map(|(_, bound)| bound);
     assert_eq!(worst(measured(&[(0.25, "a"), (0.5, "b"), (0.5, "c"), (0.25, "d")])), Some("b".to_string()));
     for (later, found) in [(0.25, "own"), (0.5, "own"), (0.75, "later")] {
         let mut own = measured(&[(0.5, "own")]);

@@ -12,12 +12,12 @@ use std::collections::BTreeMap;
 #[derive(Serialize)]
 struct All {
     summary: ProofSummary,
-    equations: Vec<Equation>,
+    equations: Vec<EquationProofs>,
     mutations: Vec<Mutation>,
 }
 
 #[derive(Serialize)]
-struct Equation {
+struct EquationProofs {
     equation: &'static str,
     claims: Vec<Claim>,
 }
@@ -61,7 +61,7 @@ fn values(counterexample: &Counterexample) -> Values {
 
 impl Serialize for Proofs {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let equations = self.by_equation().map(|claims| Equation {
+        let equations = self.by_equation().map(|claims| EquationProofs {
             equation: claims[0].statement.equation(),
             claims: claims.iter().map(|proved| claim(proved, self)).collect(),
         });

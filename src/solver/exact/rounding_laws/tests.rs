@@ -19,7 +19,7 @@ fn numbers_that_lose_precision_guarantee_nothing() {
     };
     assert!(with(0, 1, 100) && with(4, 1, 2) && with(1, 2, 1) && !with(3, 1, 2) && !with(1, 1, 1));
     let far = Exact::from(1_000_000);
-    let converges = |laws: RoundingLaws| laws.guarantee_convergence(&Exact::one(), &far);
+    let converges = |laws: RoundingLaws| laws.is_convergence_guaranteed(&Exact::one(), &far);
     assert!(converges(laws(8, 4096, 4098)));
     assert!(!converges(laws(8, 4095, 4098)) && !converges(laws(8, 4096, 4097)));
 }
