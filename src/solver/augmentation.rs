@@ -52,13 +52,13 @@ pub struct Augmentation<'a, T> {
     k: u64,
     multiplier: T,
     /// Created with the first step if the number system computes in place.
-    rounds: Option<SpecializedProgram<T>>,
+    program: Option<SpecializedProgram<T>>,
 }
 
 impl<'a, T: OrderedField> Augmentation<'a, T> {
     /// Starts from λ₀ = 0 with unilateral contact; `penalty` is ε > 0 in N/m.
     pub fn new(system: &'a SpringMass<T>, penalty: &'a T) -> Self {
-        Augmentation { system, penalty, plane: Plane::Unilateral, k: 0, multiplier: T::zero(), rounds: None }
+        Augmentation { system, penalty, plane: Plane::Unilateral, k: 0, multiplier: T::zero(), program: None }
     }
 
     /// Sets the initial multiplier λ₀, in N.
@@ -68,7 +68,7 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
 
     /// Sets the plane.
     pub fn over(self, plane: Plane) -> Self {
-        Augmentation { plane, rounds: None, ..self }
+        Augmentation { plane, program: None, ..self }
     }
 
     /// Returns ε, in N/m.
@@ -106,32 +106,32 @@ impl<'a, T: OrderedField> Augmentation<'a, T> {
     }
 
     fn step_in_place(&mut self) -> Iterate<T> {
-        let Record { program, multiplier, step } = Record::of(self.plane);
-        let rounds = self.rounds.get_or_insert_with(|| {
-            let system = self.system;
-            program.specialize(&|name| known(name, system, self.penalty), &piecewise_ops).expect(ELEMENTARY)
+        let Record { program: recorded, multiplier, step } = Record::of(self.plane);
+        let (system, penalty) = (self.system, self.penalty);
+        let program = self.program.get_or_insert_with(|| {
+            recorded.specialize(&|name| constant(name, system, penalty), &piecewise_ops).expect(ELEMENTARY)
         });
-        let spare = rounds.replace(*multiplier, replace(&mut self.multiplier, T::zero()));
-        rounds.run(&piecewise_ops).expect(ELEMENTARY);
-        let free = step.free.is_some_and(|free| rounds[step.deflection] >= rounds[free]);
-        self.multiplier = rounds.replace(step.next, spare);
+        let spare = program.replace(*multiplier, replace(&mut self.multiplier, T::zero()));
+        program.run(&piecewise_ops).expect(ELEMENTARY);
+        let free = step.free.is_some_and(|free| program[step.deflection] >= program[free]);
+        self.multiplier = program.replace(step.next, spare);
         Iterate {
             k: self.k,
-            multiplier: rounds.take(*multiplier),
-            deflection: rounds.take(step.deflection),
-            penetration: rounds.take(step.penetration),
-            contact_force: if free { T::zero() } else { rounds.take(step.contact_force) },
+            multiplier: program.take(*multiplier),
+            deflection: program.take(step.deflection),
+            penetration: program.take(step.penetration),
+            contact_force: if free { T::zero() } else { program.take(step.contact_force) },
         }
     }
 
     /// Recycles the memory of an iterate for the next ones.
     pub(super) fn reuse(&mut self, iterate: Iterate<T>) {
-        if let Some(rounds) = &mut self.rounds {
+        if let Some(program) = &mut self.program {
             let Record { multiplier, step, .. } = Record::of(self.plane);
-            rounds.replace(*multiplier, iterate.multiplier);
-            rounds.replace(step.deflection, iterate.deflection);
-            rounds.replace(step.penetration, iterate.penetration);
-            rounds.replace(step.contact_force, iterate.contact_force);
+            program.replace(*multiplier, iterate.multiplier);
+            program.replace(step.deflection, iterate.deflection);
+            program.replace(step.penetration, iterate.penetration);
+            program.replace(step.contact_force, iterate.contact_force);
         }
     }
 }
@@ -220,6 +220,6 @@ impl Record {
 }
 
 /// Returns the value of a symbol, or `None` for λ, which varies.
-fn known<T: Clone>(name: &str, system: &SpringMass<T>, penalty: &T) -> Option<T> {
+fn constant<T: Clone>(name: &str, system: &SpringMass<T>, penalty: &T) -> Option<T> {
     if name == "ε" { Some(penalty.clone()) } else { system.by_symbol(name).cloned() }
 }

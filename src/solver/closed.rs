@@ -1,6 +1,6 @@
 //! The closed form of (1.16): the k-th iterate without those before it.
 
-use super::scalar::LONGEST;
+use super::scalar::MAX_BITS;
 use super::validate::{self, SolveError};
 use super::{Interval, Iterate, Plane, Scalar, to_interval};
 use crate::chapter::{SpringMass, augmented, penalty, structure};
@@ -52,7 +52,7 @@ pub fn kth_iterate<T: Scalar>(
         (lambda, k)
     };
     let decay =
-        T::power(&rho, steps).ok_or(SolveError::TooLong { quantity: "k-th iterate", digits: LONGEST })?;
+        T::power(&rho, steps).ok_or(SolveError::TooLong { quantity: "k-th iterate", digits: MAX_BITS })?;
     let mut iterate = closed(&system, &eps, &start, &decay, &rho, plane);
     if steps == 0 {
         iterate.multiplier = start;

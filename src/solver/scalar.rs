@@ -177,7 +177,7 @@ pub(super) fn power<E: PositivePart>(x: &E, k: u64) -> E {
 }
 
 /// Limit of binary digits, beyond which a computation takes minutes and gigabytes.
-pub(super) const LONGEST: u64 = 10_000_000;
+pub(super) const MAX_BITS: u64 = 10_000_000;
 
 macro_rules! by_ball {
     ($($float:ty, $sign:expr $(, $power:item)*;)*) => {$(

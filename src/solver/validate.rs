@@ -100,14 +100,14 @@ pub(super) fn require_finite<T: Scalar>(solution: &Solution<T>) -> Result<(), So
 
 /// Limits of binary digits, for one multiplier and for all steps together; within them an augmentation takes
 /// about a second.
-const LONGEST: u64 = 1 << 21;
-const MOST_DIGITS: u64 = 1 << 26;
+const MAX_MULTIPLIER_BITS: u64 = 1 << 21;
+const MAX_TOTAL_BITS: u64 = 1 << 26;
 
 pub(super) fn digits(multiplier: u64, all_multipliers: u64) -> Result<(), SolveError> {
-    if multiplier > LONGEST {
-        return Err(SolveError::TooLong { quantity: "multiplier", digits: LONGEST });
-    } else if all_multipliers > MOST_DIGITS {
-        return Err(SolveError::TooLong { quantity: "all multipliers together", digits: MOST_DIGITS });
+    if multiplier > MAX_MULTIPLIER_BITS {
+        return Err(SolveError::TooLong { quantity: "multiplier", digits: MAX_MULTIPLIER_BITS });
+    } else if all_multipliers > MAX_TOTAL_BITS {
+        return Err(SolveError::TooLong { quantity: "all multipliers together", digits: MAX_TOTAL_BITS });
     }
     Ok(())
 }
@@ -122,8 +122,8 @@ mod tests {
             Err(SolveError::TooLong { quantity, .. }) => Some(quantity),
             _ => None,
         };
-        assert_eq!(refused(LONGEST, MOST_DIGITS), None);
-        assert_eq!(refused(LONGEST + 2, MOST_DIGITS), Some("multiplier"));
-        assert_eq!(refused(0, MOST_DIGITS + 2), Some("all multipliers together"));
+        assert_eq!(refused(MAX_MULTIPLIER_BITS, MAX_TOTAL_BITS), None);
+        assert_eq!(refused(MAX_MULTIPLIER_BITS + 2, MAX_TOTAL_BITS), Some("multiplier"));
+        assert_eq!(refused(0, MAX_TOTAL_BITS + 2), Some("all multipliers together"));
     }
 }

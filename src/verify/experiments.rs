@@ -73,7 +73,7 @@ macro_rules! list {
 const STEPS: usize = 24;
 
 /// Largest number of steps to a fixed point.
-const MOST_STEPS: usize = 1000;
+const MAX_STEPS: usize = 1000;
 
 /// Returns the experiments on floats: claims proved for every precision, then properties that are only
 /// tested.

@@ -90,7 +90,7 @@ fn count_while_active(
 }
 
 /// Largest precision of logarithms in bits, which takes seconds.
-const LONGEST: u32 = 1 << 20;
+const MAX_PRECISION: u32 = 1 << 20;
 
 /// Returns the smallest k ≥ 0 with value < bound · (1 + x)ᵏ, for value ≥ 0, bound > 0 and x > 0.
 fn first_below(value: &Exact, bound: &Exact, x: &Exact) -> Result<Integer, SolveError> {
@@ -109,8 +109,11 @@ fn first_below(value: &Exact, bound: &Exact, x: &Exact) -> Result<Integer, Solve
             return Ok(upper + 1);
         }
         precision *= 2;
-        if precision > LONGEST {
-            return Err(SolveError::TooLong { quantity: "number of augmentations", digits: LONGEST.into() });
+        if precision > MAX_PRECISION {
+            return Err(SolveError::TooLong {
+                quantity: "number of augmentations",
+                digits: MAX_PRECISION.into(),
+            });
         }
     }
 }

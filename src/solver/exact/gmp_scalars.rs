@@ -1,15 +1,15 @@
 //! MPFR numbers and rationals as scalars.
 
 use crate::number::{Ball, Exact, ExactText, Mpfr, PositivePart, Real, ToExact};
-use crate::solver::scalar::{LONGEST, by_ball, power};
+use crate::solver::scalar::{MAX_BITS, by_ball, power};
 use crate::solver::{Interval, Scalar};
 use num_traits::Zero;
 use rug::float::Round;
 use std::cmp::Ordering;
 
-/// Returns `true` if xᵏ has at most [`LONGEST`] binary digits.
+/// Returns `true` if xᵏ has at most [`MAX_BITS`] binary digits.
 fn can_be_written(x: &Exact, k: u64) -> bool {
-    x.bit_length().checked_mul(k).is_some_and(|digits| digits <= LONGEST)
+    x.bit_length().checked_mul(k).is_some_and(|digits| digits <= MAX_BITS)
 }
 
 impl<T: ExactText> Interval<T> {

@@ -165,10 +165,10 @@ pub fn penalty_force_bound<T: Scalar + ToExact>(
 }
 
 /// Largest number of penalties of [`penalties`].
-const MOST_POINTS: u32 = 1_000_000;
+const MAX_POINTS: u32 = 1_000_000;
 
 /// Largest number of digits of a penalty of [`penalties`].
-const MOST_DIGITS: usize = 100;
+const MAX_DIGITS: usize = 100;
 
 /// Returns `points` penalties from one to another, both included, in about equal ratios, for a logarithmic
 /// plot. The unit is arbitrary.
@@ -193,12 +193,12 @@ pub fn penalties(from: &Exact, to: &Exact, points: u32) -> Result<Vec<Exact>, So
     validate::require(*from > Exact::zero(), "first penalty", from, "greater than 0")?;
     validate::require(from < to, "last penalty", to, "greater than the first")?;
     validate::require(
-        (2..=MOST_POINTS).contains(&points),
+        (2..=MAX_POINTS).contains(&points),
         "number of penalties",
         &points,
         "from 2 to 1000000",
     )?;
-    let spaced = (3..=MOST_DIGITS).map(|digits| spaced(from, to, points, digits));
+    let spaced = (3..=MAX_DIGITS).map(|digits| spaced(from, to, points, digits));
     let mut distinct = spaced.filter(|list| list.windows(2).all(|pair| pair[0] < pair[1]));
     let further = "further from the first, or there must be fewer between them";
     distinct.next().ok_or(SolveError::Invalid {

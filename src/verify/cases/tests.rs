@@ -249,10 +249,10 @@ fn adjustments_are_as_small_as_possible() {
         let stiff = case(1, index, &[hypotheses().stiffness.clone()]).unwrap();
         assert_eq!(stiff.system.c, raw.system.c.abs());
         let touching = case(1, index, &[hypotheses().in_contact.clone()]);
-        let bent = touching.filter(|_| reaction(&raw) < Exact::zero()).map(|case| reaction(&case));
-        zeros += usize::from(bent.as_ref().is_some_and(Zero::is_zero));
-        beside += usize::from(bent.as_ref().is_some_and(|r| *r == -reaction(&raw)));
-        assert!(bent.is_none_or(|r| r.is_zero() || r == -reaction(&raw)), "{index}");
+        let adjusted = touching.filter(|_| reaction(&raw) < Exact::zero()).map(|case| reaction(&case));
+        zeros += usize::from(adjusted.as_ref().is_some_and(Zero::is_zero));
+        beside += usize::from(adjusted.as_ref().is_some_and(|r| *r == -reaction(&raw)));
+        assert!(adjusted.is_none_or(|r| r.is_zero() || r == -reaction(&raw)), "{index}");
         let profile = PROFILES[(index % PROFILES.len() as u64) as usize];
         let solvable = !raw.system.m.is_zero() && !raw.system.c.is_zero();
         if profile == Profile::Grazing && reaction(&raw).is_zero() && solvable {

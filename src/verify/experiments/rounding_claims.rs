@@ -1,6 +1,6 @@
 //! Experiments on the claims about rounding, evaluated with computed numbers.
 
-use super::{Experiment, MOST_STEPS, STEPS, Trial, UNITS, check, power_of_two};
+use super::{Experiment, MAX_STEPS, STEPS, Trial, UNITS, check, power_of_two};
 use crate::chapter::{SpringMass, augmented, structure, system};
 use crate::claims::{Case, claims, symbols};
 use crate::eval::{
@@ -177,9 +177,9 @@ fn find_repeat<T: Scalar + Real + ToExact>(case: &Case<T>, precision: &Exact) ->
     let Case { system, eps, .. } = case;
     let bits = precision.as_rational().numer().significant_bits() as usize;
     // For ε ≥ c each step gains at least one bit.
-    let enough = if *eps >= system.c { (bits + STEPS).min(MOST_STEPS) } else { STEPS };
+    let max_steps = if *eps >= system.c { (bits + STEPS).min(MAX_STEPS) } else { STEPS };
     let mut steps = Augmentation::new(system, eps).over(Plane::Bilateral);
-    for _ in 0..enough {
+    for _ in 0..max_steps {
         let step = steps.step();
         if *steps.multiplier() == step.multiplier {
             return Some(step);
