@@ -9,7 +9,9 @@ use spring_mass_contact::proof::mutation::{self, DropOutcome, DroppedHypothesis,
 use spring_mass_contact::proof::render::{self, ProofPrinter};
 use spring_mass_contact::proof::tightest_point;
 use spring_mass_contact::verify::coq;
-use spring_mass_contact::verify::proofs::{ProofAttempt, ProofOutcome, Proofs, Summary, prove_equations};
+use spring_mass_contact::verify::proofs::{
+    ProofAttempt, ProofOutcome, ProofSummary, Proofs, prove_equations,
+};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::{fs, process};
@@ -103,7 +105,7 @@ fn make_writable(directory: &Path) -> io::Result<()> {
 }
 
 fn outcome_in_words(attempt: &ProofAttempt) -> String {
-    match &attempt.answer {
+    match &attempt.outcome {
         ProofOutcome::Proof(proof) => render::proof_summary(proof),
         ProofOutcome::None(..) => attempt.status().to_uppercase(),
     }
@@ -111,8 +113,8 @@ fn outcome_in_words(attempt: &ProofAttempt) -> String {
 
 fn table(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     let rows = proofs.claims.iter().map(|attempt| {
-        let ProofAttempt { statement, answer, time } = attempt;
-        let hypotheses = match answer {
+        let ProofAttempt { statement, outcome, time } = attempt;
+        let hypotheses = match outcome {
             ProofOutcome::Proof(proof) => printer().used(proof),
             ProofOutcome::None(..) => attempt.hypotheses(),
         };
@@ -128,8 +130,8 @@ fn table(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
 
 /// Prints each problem after a blank line.
 fn print_problems(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
-    for ProofAttempt { statement, answer, .. } in &proofs.claims {
-        let ProofOutcome::None(reason, counterexample) = answer else { continue };
+    for ProofAttempt { statement, outcome, .. } in &proofs.claims {
+        let ProofOutcome::None(reason, counterexample) = outcome else { continue };
         let status = counterexample.as_ref().map_or(format!("UNKNOWN: {reason}"), |_| "REFUTED".to_string());
         writeln!(out)?;
         output::wrapped(out, "", 2, &format!("{} {} {status}", statement.equation(), statement.name()))?;
@@ -159,7 +161,7 @@ fn print_problems(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
 }
 
 fn totals(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
-    let Summary { claims, proved, hypotheses, controls, .. } = proofs.summary();
+    let ProofSummary { claims, proved, hypotheses, controls, .. } = proofs.summary();
     writeln!(out, "{proved} of {claims} claims proved in {:.3} s.", proofs.proof_time.as_secs_f64())?;
     if proved < claims {
         return writeln!(out, "Mutations are tested when all claims are proved.");
@@ -202,7 +204,7 @@ fn details(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
 }
 
 fn print_claim(out: &mut dyn Write, proofs: &Proofs, attempt: &ProofAttempt) -> io::Result<()> {
-    let ProofAttempt { statement, answer, .. } = attempt;
+    let ProofAttempt { statement, outcome, .. } = attempt;
     writeln!(out, "{} ({})", statement.name(), outcome_in_words(attempt))?;
     print_lines(out, "claim", &[printer().claim(statement)])?;
     if !statement.hypotheses().is_empty() {
@@ -215,7 +217,7 @@ fn print_claim(out: &mut dyn Write, proofs: &Proofs, attempt: &ProofAttempt) -> 
         print_lines(out, "always", &[format!("{invariants}{index}, which is part of the proof")])?;
     }
     print_lines(out, "where", &printer().names(statement))?;
-    match answer {
+    match outcome {
         ProofOutcome::Proof(proof) => print_lines(out, "proof", &printer().proof(proof))?,
         ProofOutcome::None(reason, _) => print_lines(out, "no proof", std::slice::from_ref(reason))?,
     }
@@ -298,7 +300,7 @@ mod tests {
     #[test]
     fn an_unknown_result_is_printed_with_its_claim() {
         let mut unknown = ProofAttempt::of(claim("float-drift"));
-        unknown.answer = ProofOutcome::None("no rule finds the sign of x₁ − q".into(), None);
+        unknown.outcome = ProofOutcome::None("no rule finds the sign of x₁ − q".into(), None);
         let proofs = Proofs { claims: vec![unknown], ..Proofs::default() };
         let text = output::capture(|out| print_problems(out, &proofs)).replace("\n   ", "");
         assert!(

@@ -4,7 +4,7 @@ use crate::args;
 use crate::output::{self, Exit, Failure, counted, formats};
 use spring_mass_contact::claims::entry;
 use spring_mass_contact::number::NumberSystem;
-use spring_mass_contact::verify::{self, Report, Row, Status, claim_names};
+use spring_mass_contact::verify::{self, ClaimResult, Status, VerificationReport, claim_names};
 use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
@@ -70,11 +70,16 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     Ok(exit(&report))
 }
 
-fn exit(report: &Report) -> Exit {
+fn exit(report: &VerificationReport) -> Exit {
     Exit::from_result(report.holds())
 }
 
-fn print(out: &mut dyn Write, report: &Report, options: &verify::Options, format: Format) -> io::Result<()> {
+fn print(
+    out: &mut dyn Write,
+    report: &VerificationReport,
+    options: &verify::Options,
+    format: Format,
+) -> io::Result<()> {
     match format {
         Format::Table => table(out, report, options),
         Format::Json => output::json(out, report),
@@ -89,7 +94,7 @@ fn column_name(column: Column) -> String {
     column.map_or("proved".to_string(), |scalar| scalar.to_string())
 }
 
-fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io::Result<()> {
+fn table(out: &mut dyn Write, report: &VerificationReport, options: &verify::Options) -> io::Result<()> {
     let scalars = options.scalars.iter().copied().map(Some);
     let columns: Vec<Column> = [None].into_iter().chain(scalars).collect();
     for columns in side_by_side(report, &columns) {
@@ -110,11 +115,11 @@ fn table(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io:
     Ok(())
 }
 
-fn rows_with(report: &Report, status: Status) -> Vec<&Row> {
+fn rows_with(report: &VerificationReport, status: Status) -> Vec<&ClaimResult> {
     report.rows.iter().filter(|row| row.status == status).collect()
 }
 
-fn totals(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io::Result<()> {
+fn totals(out: &mut dyn Write, report: &VerificationReport, options: &verify::Options) -> io::Result<()> {
     let summary = report.summary();
     let checked: Vec<_> = report.rows.iter().filter(|row| row.scalar.is_some()).collect();
     let all = counted((summary.claims - checked.len()) as u64, "claim", "claims");
@@ -131,12 +136,12 @@ fn totals(out: &mut dyn Write, report: &Report, options: &verify::Options) -> io
 }
 
 /// Prints the largest rounding error relative to its bound.
-fn worst(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+fn worst(out: &mut dyn Write, report: &VerificationReport) -> io::Result<()> {
     let held = rows_with(report, Status::Held).into_iter();
     let shares = held.filter_map(|row| row.worst.as_ref().map(|(share, _)| (*share, row)));
     let positive = shares.filter(|(share, _)| *share > 0.0);
     positive.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(Ok(()), |(share, row)| {
-        let (Row { equation, claim, .. }, share) = (row, percent(share));
+        let (ClaimResult { equation, claim, .. }, share) = (row, percent(share));
         let scalar = column_name(row.scalar);
         writeln!(out, "Rounding errors: at most {share} of the bound ({equation} {claim}, {scalar}).")
     })
@@ -154,7 +159,7 @@ const MAX_COLUMNS_WIDTH: usize = 45;
 const COLUMN_GAP: usize = 2;
 
 /// Groups columns that fit beside each other.
-fn side_by_side<'a>(report: &Report, columns: &'a [Column]) -> Vec<&'a [Column]> {
+fn side_by_side<'a>(report: &VerificationReport, columns: &'a [Column]) -> Vec<&'a [Column]> {
     let (mut groups, mut start, mut used) = (Vec::new(), 0, 0);
     for (i, column) in columns.iter().enumerate() {
         let cells = report.by_equation().map(|rows| cell(rows, *column).len());
@@ -170,7 +175,7 @@ fn side_by_side<'a>(report: &Report, columns: &'a [Column]) -> Vec<&'a [Column]>
 }
 
 /// Returns the number of claims of an equation that are proved, or that hold in a number system.
-fn cell(rows: &[Row], column: Column) -> String {
+fn cell(rows: &[ClaimResult], column: Column) -> String {
     let statuses = rows.iter().filter(|row| row.scalar == column).map(|row| row.status);
     let [failed, undecided] = [Status::Failed, Status::Undecided]
         .map(|status| statuses.clone().filter(|other| *other == status).count());
@@ -184,7 +189,7 @@ fn cell(rows: &[Row], column: Column) -> String {
 }
 
 /// Prints a line for each equation.
-fn counts(out: &mut dyn Write, report: &Report, columns: &[Column]) -> io::Result<()> {
+fn counts(out: &mut dyn Write, report: &VerificationReport, columns: &[Column]) -> io::Result<()> {
     let names =
         ["number", "title"].map(String::from).into_iter().chain(columns.iter().copied().map(column_name));
     let rows = report.by_equation().map(|rows| {
@@ -196,14 +201,14 @@ fn counts(out: &mut dyn Write, report: &Report, columns: &[Column]) -> io::Resul
 }
 
 /// Returns the key that equal failures in different number systems share; their rows are adjacent.
-fn failure_key(row: &Row) -> impl PartialEq {
+fn failure_key(row: &ClaimResult) -> impl PartialEq {
     (row.equation, row.claim, row.scalar.is_none(), &row.reason, &row.counterexample)
 }
 
 /// Prints the undecided claims, one per line, and a remedy.
-fn undecided(out: &mut dyn Write, rows: &[&Row]) -> io::Result<()> {
+fn undecided(out: &mut dyn Write, rows: &[&ClaimResult]) -> io::Result<()> {
     for alike in rows.chunk_by(|a, b| (a.equation, a.claim) == (b.equation, b.claim)) {
-        let Row { equation, claim, .. } = alike[0];
+        let ClaimResult { equation, claim, .. } = alike[0];
         output::wrapped(out, "", 2, &format!("{equation} {claim} undecided in {}", names(alike)))?;
     }
     if rows.is_empty() {
@@ -216,9 +221,9 @@ fn undecided(out: &mut dyn Write, rows: &[&Row]) -> io::Result<()> {
 }
 
 /// Prints equal failures, at least one.
-fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
+fn failure(out: &mut dyn Write, alike: &[&ClaimResult]) -> io::Result<()> {
     let row = alike[0];
-    let Row { equation, claim, reason, .. } = row;
+    let ClaimResult { equation, claim, reason, .. } = row;
     match row.scalar {
         None => writeln!(out, "{equation} {claim} NOT PROVED")?,
         Some(_) => output::wrapped(out, "", 2, &format!("{equation} {claim} FAILED in {}", names(alike)))?,
@@ -233,11 +238,11 @@ fn failure(out: &mut dyn Write, alike: &[&Row]) -> io::Result<()> {
 }
 
 /// Returns the number systems of rows.
-fn names(rows: &[&Row]) -> String {
+fn names(rows: &[&ClaimResult]) -> String {
     rows.iter().map(|row| column_name(row.scalar)).collect::<Vec<_>>().join(", ")
 }
 
-fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+fn markdown(out: &mut dyn Write, report: &VerificationReport) -> io::Result<()> {
     let names = ["number", "claim", "kind", "scalar", "status", "decided", "undecided", "worst share"];
     let rows = report.rows.iter().map(|row| {
         let scalar = row.scalar.map_or(String::new(), |scalar| scalar.to_string());

@@ -12,10 +12,10 @@ fn case() -> Case<Exact> {
 }
 
 /// Returns the row of a claim of (1.13), with its proof or five cases in a number system.
-fn row(column: Column, status: Status) -> Row {
+fn row(column: Column, status: Status) -> ClaimResult {
     let decided = if column.is_some() && status != Status::Undecided { 4 } else { 0 };
     let failed = column.is_some() && status == Status::Failed;
-    Row {
+    ClaimResult {
         equation: "1.13",
         claim: "rate",
         kind: "equal",
@@ -29,17 +29,17 @@ fn row(column: Column, status: Status) -> Row {
     }
 }
 
-fn report(rows: Vec<Row>) -> (Report, verify::Options) {
+fn report(rows: Vec<ClaimResult>) -> (VerificationReport, verify::Options) {
     let scalars = rows.iter().filter_map(|row| row.scalar).collect();
-    let report = Report { rows, shared: Vec::new() };
+    let report = VerificationReport { rows, shared: Vec::new() };
     (report, verify::Options { scalars, cases: 5, seed: 42, equations: Vec::new() })
 }
 
 /// A claim that is not proved, wrong in f32 and f64 in the same case, undecided with two bits, and right in
 /// rationals; before it another claim that is not proved.
-fn mistaken() -> (Report, verify::Options) {
+fn mistaken() -> (VerificationReport, verify::Options) {
     let [single, double, two_bits] = [NumberSystem::F32, NumberSystem::F64, NumberSystem::Mpfr(2)];
-    let proof = Row { reason: Some("the sides differ by c".into()), ..row(None, Status::Failed) };
+    let proof = ClaimResult { reason: Some("the sides differ by c".into()), ..row(None, Status::Failed) };
     let rows = vec![
         proof.clone(),
         row(Some(single), Status::Failed),
@@ -49,7 +49,7 @@ fn mistaken() -> (Report, verify::Options) {
     ];
     let (mut report, options) = report(rows);
     report.shared = vec!["penalty::deflection", "structure::equilibrium_residual", "system::reaction"];
-    report.rows.insert(0, Row { equation: "1.1", claim: "root", ..proof });
+    report.rows.insert(0, ClaimResult { equation: "1.1", claim: "root", ..proof });
     (report, options)
 }
 
@@ -99,7 +99,8 @@ Every claim that is not proved uses penalty::deflection,
 fn failures_of_proofs_and_of_number_systems_are_distinguished() {
     let reason = Some("division by 0".to_string());
     let columns = [None, Some(NumberSystem::F32), Some(NumberSystem::F64)];
-    let broken = |column| Row { reason: reason.clone(), counterexample: None, ..row(column, Status::Failed) };
+    let broken =
+        |column| ClaimResult { reason: reason.clone(), counterexample: None, ..row(column, Status::Failed) };
     let (report, options) = report(columns.map(broken).to_vec());
     let text = capture(|out| table(out, &report, &options));
     let reason = "\n  division by 0\n\n";
@@ -114,7 +115,7 @@ fn failures_of_proofs_and_of_number_systems_are_distinguished() {
 fn a_failure_is_seen_by_status_and_in_every_format() {
     let columns = [None, Some(NumberSystem::F32), Some(NumberSystem::F64), Some(NumberSystem::Exact)];
     let well = |column: Column| row(column, if column.is_none() { Status::Proved } else { Status::Held });
-    let printed = |report: &Report, options: &verify::Options| {
+    let printed = |report: &VerificationReport, options: &verify::Options| {
         [Format::Table, Format::Json, Format::Markdown]
             .map(|format| capture(|out| print(out, report, options, format)))
     };
