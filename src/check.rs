@@ -147,7 +147,7 @@ pub struct Repetition {
 /// Numbers of problems by verdict.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Summary {
+pub struct VerdictCounts {
     /// Within the rounding error of f64.
     pub right: usize,
     /// Within the tolerance.
@@ -164,7 +164,7 @@ pub struct Summary {
 
 /// Results of a family.
 #[derive(Clone, Debug)]
-pub struct Row<'a> {
+pub struct FamilyResult<'a> {
     /// The family.
     pub family: Family,
     /// Number of its problems.
@@ -325,7 +325,7 @@ impl Report {
     /// Returns `true` if no answer is wrong and every family has a correct one. A refusal is not wrong, but a
     /// family without answers is not known to be right.
     pub fn holds(&self) -> bool {
-        let Summary { wrong, crashed, timed_out, .. } = self.summary();
+        let VerdictCounts { wrong, crashed, timed_out, .. } = self.summary();
         let families = self.families();
         let known = !families.is_empty() && families.iter().all(|row| row.right > 0);
         known && wrong + crashed + timed_out == 0 && self.changed.is_empty() && self.lag().is_none()
@@ -348,8 +348,8 @@ impl Report {
     }
 
     /// Returns the numbers of problems by verdict.
-    pub fn summary(&self) -> Summary {
-        Summary {
+    pub fn summary(&self) -> VerdictCounts {
+        VerdictCounts {
             right: self.count(Verdict::Right),
             within_tolerance: self.count(Verdict::WithinTolerance),
             wrong: self.count(Verdict::Wrong),
@@ -365,8 +365,11 @@ impl Report {
     }
 
     /// Returns the results of each family.
-    pub fn families(&self) -> Vec<Row<'_>> {
-        self.tallies.iter().filter_map(|(family, tally)| Row::of(*family, tally, &self.results)).collect()
+    pub fn families(&self) -> Vec<FamilyResult<'_>> {
+        self.tallies
+            .iter()
+            .filter_map(|(family, tally)| FamilyResult::of(*family, tally, &self.results))
+            .collect()
     }
 
     /// Returns the number of problems.
@@ -395,7 +398,7 @@ impl Report {
     }
 }
 
-impl<'a> Row<'a> {
+impl<'a> FamilyResult<'a> {
     fn of(family: Family, tally: &Tally, results: &'a [CaseResult]) -> Option<Self> {
         let (verdict, count) = tally.counts.last_key_value()?;
         // `max_by_key` returns the last of equal elements.
@@ -407,7 +410,7 @@ impl<'a> Row<'a> {
         let [worst_deflection, worst_force] = tally.largest_errors.clone();
         let right = tally.counts.range(..=Verdict::WithinTolerance).map(|(_, count)| count).sum();
         let cases = tally.counts.values().sum();
-        Some(Row {
+        Some(FamilyResult {
             family,
             cases,
             verdict: *verdict,

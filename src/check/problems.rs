@@ -119,7 +119,7 @@ pub fn problems(seed: u64, cases: u64, families: &[Family]) -> Vec<Problem> {
     let mut all = Vec::new();
     for family in families.iter().copied() {
         for number in 1..=cases * family.multiplicity() {
-            let system = Draw::new(seed, family, number).system();
+            let system = Sampler::new(seed, family, number).system();
             all.push(Problem { id: format!("{family}-{number}"), family, system, penalty: None });
         }
     }
@@ -145,17 +145,17 @@ fn last_digit(x: &Exact) -> Exact {
 }
 
 /// Random source of the systems of a family.
-struct Draw {
+struct Sampler {
     random: Rand64,
     seed: u64,
     family: Family,
     number: u64,
 }
 
-impl Draw {
+impl Sampler {
     fn new(seed: u64, family: Family, number: u64) -> Self {
         let stream = (u128::from(seed) << 64) | (u128::from(number) << 8) | family as u128;
-        Draw { random: Rand64::new(stream), seed, family, number }
+        Sampler { random: Rand64::new(stream), seed, family, number }
     }
 
     fn between(&mut self, low: i32, high: i32) -> i32 {
@@ -189,10 +189,10 @@ impl Draw {
 
     fn system(mut self) -> SpringMass<Exact> {
         match self.family {
-            Family::Contact => self.ordinary([1, 3], Draw::inside),
-            Family::Separated => self.ordinary([1, 3], Draw::beyond),
+            Family::Contact => self.ordinary([1, 3], Sampler::inside),
+            Family::Separated => self.ordinary([1, 3], Sampler::beyond),
             Family::Overlap => self.ordinary([1, 3], |draw| -draw.part()),
-            Family::Soft => self.ordinary([-4, -2], Draw::part),
+            Family::Soft => self.ordinary([-4, -2], Sampler::part),
             Family::Lifted => self.lifted(),
             Family::Stiff => self.stiff(),
             Family::Far => self.far(),
@@ -307,7 +307,7 @@ impl Draw {
     /// Each five of these have one base, of which they change one parameter each.
     fn neighbour(&mut self) -> SpringMass<Exact> {
         let [base, which] = [(self.number - 1) / 5, (self.number - 1) % 5];
-        let mut system = Draw::new(self.seed, Family::Contact, base + 1).system();
+        let mut system = Sampler::new(self.seed, Family::Contact, base + 1).system();
         let SpringMass { c, m, g, l, h } = &mut system;
         let changed = [c, m, g, l, h].into_iter().nth(which as usize).expect("five parameters");
         *changed = short(&(&*changed * decimal(1001, -3)), DIGITS);

@@ -7,7 +7,7 @@ use crate::args::format_exact;
 use crate::output::record;
 use serde::Serialize;
 use serde_json::value::RawValue;
-use spring_mass_contact::check::{CaseResult, Condition, Reply, Report, Row, Threshold, Verdict};
+use spring_mass_contact::check::{CaseResult, Condition, FamilyResult, Reply, Report, Threshold, Verdict};
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
 
@@ -37,7 +37,7 @@ fn id(report: &Report, i: usize) -> &str {
     &report.results[i].problem.id
 }
 
-fn family<'a>(row: &Row<'a>) -> impl Serialize + use<'a> {
+fn family<'a>(row: &FamilyResult<'a>) -> impl Serialize + use<'a> {
     record! {
         family: row.family,
         cases: row.cases,

@@ -4,7 +4,8 @@ use crate::args::{Number, format_exact};
 use crate::lines::NO_BREAK_SPACE;
 use crate::output::{self, counted, shortened};
 use spring_mass_contact::check::{
-    Answer, CaseResult, Diagnosis, DiagnosisScope, Quantity, Reply, Report, Row, Summary, Threshold, Verdict,
+    Answer, CaseResult, Diagnosis, DiagnosisScope, FamilyResult, Quantity, Reply, Report, Threshold, Verdict,
+    VerdictCounts,
 };
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
@@ -40,7 +41,7 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &Nu
 }
 
 fn counts(report: &Report, within: &str) -> String {
-    let Summary { right, within_tolerance, wrong, refused, crashed, timed_out } = report.summary();
+    let VerdictCounts { right, within_tolerance, wrong, refused, crashed, timed_out } = report.summary();
     let counts = [
         (right, "right"),
         (within_tolerance, within),
@@ -83,7 +84,7 @@ pub fn markdown(out: &mut dyn Write, report: &Report) -> io::Result<()> {
 /// Columns of the table of families.
 const NAMES: [&str; 5] = ["family", "systems", "verdict", "u off by", "N off by"];
 
-fn cells(row: &Row, within: &str) -> [String; 5] {
+fn cells(row: &FamilyResult, within: &str) -> [String; 5] {
     let verdict = match row.verdict {
         Verdict::WithinTolerance => within.to_string(),
         Verdict::TimedOut => "not in time".to_string(),

@@ -20,7 +20,7 @@ fn a_correct_program_has_no_diagnosis() {
             Answer { penetration: Some(answer.penetration.to_exact().ok()), ..Answer::new(u, n) }
         };
         for report in [run(&problems, right), run(&problems, in_f64)] {
-            assert_eq!(report.summary(), Summary { right: problems.len(), ..Summary::default() });
+            assert_eq!(report.summary(), VerdictCounts { right: problems.len(), ..VerdictCounts::default() });
             assert!(report.holds() && report.diagnosis.is_empty());
         }
     }
@@ -212,7 +212,7 @@ fn an_answer_is_compared_with_the_method_that_it_used() {
         answer
     };
     let report = run(&all, |problem| single(problem, true));
-    assert_eq!(report.summary(), Summary { within_tolerance: 20, ..Summary::default() });
+    assert_eq!(report.summary(), VerdictCounts { within_tolerance: 20, ..VerdictCounts::default() });
     let report = run(&all, |problem| single(problem, false));
     assert_eq!(report.identified_mistake().unwrap().name, "it computes in single precision");
 }
@@ -248,7 +248,8 @@ fn every_reply_is_counted() {
     };
     assert_eq!(run(&all, off).families()[0].worst.problem.id, "stiff-4");
     let report = judged(&all);
-    let one_each = Summary { right: 1, within_tolerance: 1, wrong: 1, refused: 1, crashed: 1, timed_out: 1 };
+    let one_each =
+        VerdictCounts { right: 1, within_tolerance: 1, wrong: 1, refused: 1, crashed: 1, timed_out: 1 };
     assert_eq!(report.summary(), one_each);
     let worst = &report.families()[0];
     assert_eq!((worst.verdict, worst.count, worst.cases), (Verdict::Crashed, 1, 6));
