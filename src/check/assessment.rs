@@ -192,7 +192,7 @@ impl Assessment {
         let (scales, balls) = (scales(&problem.system), rounded(&problem));
         let both = [0, 1].map(|i| match numbers[i] {
             None => Comparison::default(),
-            Some(own) => Comparison::of(own, expected[i], balls[i].as_ref(), &scales[i], tolerance),
+            Some(number) => Comparison::of(number, expected[i], balls[i].as_ref(), &scales[i], tolerance),
         });
         let has_right_numbers = both.iter().all(|number| number.is_near || number.is_right);
         let finding = if has_right_numbers {
@@ -243,11 +243,11 @@ struct Comparison {
 }
 
 impl Comparison {
-    fn of(own: &Exact, exact: &Exact, ball: Option<&Ball<f64>>, scale: &Exact, tolerance: &Exact) -> Self {
-        let error = (own - exact).abs() / scale;
-        let is_rounded = ball.is_some_and(|ball| ball.contains(own));
+    fn of(number: &Exact, exact: &Exact, ball: Option<&Ball<f64>>, scale: &Exact, tolerance: &Exact) -> Self {
+        let error = (number - exact).abs() / scale;
+        let is_rounded = ball.is_some_and(|ball| ball.contains(number));
         // An answer with a larger error is not accepted, whatever explains it.
-        let is_right = is_rounded && error <= fit(tolerance) || rounds_alike(own, exact);
+        let is_right = is_rounded && error <= fit(tolerance) || rounds_alike(number, exact);
         Comparison { is_near: error <= *tolerance, is_rounded, is_right, error: Some(error) }
     }
 }
@@ -313,12 +313,12 @@ fn lags(system: &SpringMass<Exact>, steps: &[[Value; 2]], tolerance: &Exact) -> 
     let tolerance = tolerance * scale;
     let mut is_behind = Vec::new();
     for pair in steps.windows(2) {
-        let [[Some(u), Some(own)], [_, Some(next)]] = pair else { continue };
+        let [[Some(u), Some(force)], [_, Some(next)]] = pair else { continue };
         let expected = augmented::contact_force(system, u);
-        let [own, next] = [own, next].map(|force| (force - &expected).abs() <= tolerance);
+        let [is_near, is_next_near] = [force, next].map(|force| (force - &expected).abs() <= tolerance);
         // If both forces are close, the steps cannot be distinguished.
-        if !(own && next) {
-            is_behind.push(next);
+        if !(is_near && is_next_near) {
+            is_behind.push(is_next_near);
         }
     }
     (is_behind.len() >= 2).then(|| is_behind.into_iter().all(|next| next))

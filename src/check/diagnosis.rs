@@ -218,7 +218,7 @@ impl<'a> Search<'a> {
         let mut numbers = samples.flat_map(|answer| estimates(mistake, answer)).filter(|k| !k.is_zero());
         let k = numbers.find(|k| self.explains_all(mistake, Some(k), answers))?;
         let agreeing =
-            wrong.iter().filter(|answer| estimates(mistake, answer).iter().any(|own| is_close(own, &k)));
+            wrong.iter().filter(|answer| estimates(mistake, answer).iter().any(|other| is_close(other, &k)));
         (agreeing.take(INFORMATIVE).count() == INFORMATIVE).then_some(k)
     }
 
@@ -296,19 +296,19 @@ fn estimates(mistake: &Mistake, answer: &Observation) -> Vec<Exact> {
         return penalty.into_iter().collect();
     }
     let formulas = mistake.results.of_state(touches).iter().zip(answer.numbers());
-    formulas.filter_map(|(formula, own)| estimate(formula, own.as_ref()?, answer)).collect()
+    formulas.filter_map(|(formula, number)| estimate(formula, number.as_ref()?, answer)).collect()
 }
 
 /// Returns the number k for which a formula has a value for the system of an answer.
-fn estimate(formula: &Tree, own: &Exact, answer: &Observation) -> Option<Exact> {
+fn estimate(formula: &Tree, number: &Exact, answer: &Observation) -> Option<Exact> {
     // The scale of k is not known.
-    let unit = if own.is_zero() { Exact::one() } else { own.abs() / Exact::from(8) };
+    let unit = if number.is_zero() { Exact::one() } else { number.abs() / Exact::from(8) };
     let penalty = answer.reported_penalty();
     let [a, b, c] = [1, 2, 3].map(|i| {
         let constants = Constants { penalty: penalty.as_ref(), factor: Some(&(Exact::from(i) * &unit)) };
         value(formula, &answer.problem.system, &constants)
     });
-    Some(linear_fractional([a?, b?, c?], own)? * unit)
+    Some(linear_fractional([a?, b?, c?], number)? * unit)
 }
 
 /// Returns the k for which a quotient of linear functions of k has a value, given its values for k = 1, 2 and

@@ -29,7 +29,7 @@ fn constant(answers: &[&Observation], fit: &Exact, unit: fn(&SpringMass<Exact>) 
     let positive = values.iter().filter(|(k, _)| *k > Exact::zero());
     // The most accurate one.
     let (k, _) = positive.min_by(|(a, e), (b, f)| (e * b).cmp(&(f * a)))?;
-    let is_same = values.iter().all(|(own, error)| (own - k).abs() <= *error);
+    let is_same = values.iter().all(|(other, error)| (other - k).abs() <= *error);
     let clear = values.iter().filter(|(_, error)| Exact::from(100) * error <= *k);
     (is_same && clear.take(INFORMATIVE).count() == INFORMATIVE).then(|| k.clone())
 }

@@ -118,11 +118,11 @@ impl<'a> Observation<'a> {
         constants: &Constants<Exact>,
         tolerance: &Exact,
     ) -> Agreement {
-        let own = match (self.numbers()[i], value(formula, &self.problem.system, constants)) {
-            (Some(own), Some(x)) if (own - &x).abs() <= tolerance * (&self.scales[i] + x.abs()) => {
+        let number = match (self.numbers()[i], value(formula, &self.problem.system, constants)) {
+            (Some(number), Some(x)) if (number - &x).abs() <= tolerance * (&self.scales[i] + x.abs()) => {
                 return Agreement::Clear;
             }
-            (Some(own), Some(_)) => own,
+            (Some(number), Some(_)) => number,
             // Any program without a number gives the same answer.
             (None, None) => return Agreement::Possible,
             _ => return Agreement::No,
@@ -130,11 +130,11 @@ impl<'a> Observation<'a> {
         let (eps, k) = (constants.penalty.and_then(ball), constants.factor.and_then(ball));
         let in_balls = Constants { penalty: eps.as_ref(), factor: k.as_ref() };
         let ball = self.balls.as_ref().and_then(|system| value(formula, system, &in_balls));
-        let Some(ball) = ball.filter(|ball| ball.is_finite() && ball.contains(own)) else {
+        let Some(ball) = ball.filter(|ball| ball.is_finite() && ball.contains(number)) else {
             return Agreement::No;
         };
         // Rounding errors that are not small relative to the error would explain other errors as well.
-        let error = (own - self.exact(i)).abs();
+        let error = (number - self.exact(i)).abs();
         if is_within(&ball, &(error / Exact::from(100))) { Agreement::Clear } else { Agreement::Possible }
     }
 
@@ -163,10 +163,12 @@ impl<'a> Observation<'a> {
         let is_solvable = [&system.c, &system.m].into_iter().all(|x| *x > Exact::zero());
         is_solvable && {
             let expected = right(system, self.problem.penalty.as_ref());
-            self.numbers().into_iter().zip(&expected).enumerate().all(|(i, (own, x))| {
-                own.as_ref().is_some_and(|own| {
-                    let error = (own - x).abs();
-                    error <= tolerance * &self.scales[i] || error <= *self.rounding(i) || rounds_alike(own, x)
+            self.numbers().into_iter().zip(&expected).enumerate().all(|(i, (number, x))| {
+                number.as_ref().is_some_and(|number| {
+                    let error = (number - x).abs();
+                    error <= tolerance * &self.scales[i]
+                        || error <= *self.rounding(i)
+                        || rounds_alike(number, x)
                 })
             })
         }

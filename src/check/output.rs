@@ -49,14 +49,14 @@ impl<'a> Output<'a> {
     /// Returns `true` if all numbers have a deviation, within the tolerance, the rounding errors of the formula, or
     /// that of the number itself.
     fn has(&self, deviation: &Deviation) -> bool {
-        self.numbers.iter().all(|(answer, own)| {
-            let (expected, unit, factor) = deviation.expected(self.exact(answer), own);
+        self.numbers.iter().all(|(answer, number)| {
+            let (expected, unit, factor) = deviation.expected(self.exact(answer), number);
             let tolerance = match deviation {
                 Deviation::Decimals(_) | Deviation::Digits(_) => Exact::zero(),
                 _ => self.fit * self.scale(answer),
             };
             let rounding = factor * tolerance.max(answer.rounding(self.index).clone());
-            (*own - expected).abs() <= unit + rounding.max(own.abs() * Exact::power_of_two(-52))
+            (*number - expected).abs() <= unit + rounding.max(number.abs() * Exact::power_of_two(-52))
         })
     }
 
@@ -89,19 +89,19 @@ impl<'a> Output<'a> {
 
     fn sum(&self) -> Option<Deviation> {
         // It is most accurate in the smallest system.
-        let (answer, own) = self.numbers.iter().min_by_key(|(answer, _)| self.scale(answer))?;
-        let sum = *own - self.exact(answer);
+        let (answer, number) = self.numbers.iter().min_by_key(|(answer, _)| self.scale(answer))?;
+        let sum = *number - self.exact(answer);
         if self.is_clear(|_| sum.abs()) { self.deviates_by(Deviation::Sum(sum)) } else { None }
     }
 
     fn factor(&self) -> Option<Deviation> {
         let numbers = self.numbers.iter();
-        let (answer, own) =
+        let (answer, number) =
             numbers.max_by_key(|(answer, _)| self.exact(answer).abs() / self.scale(answer))?;
         if !self.is_clear(|answer| self.exact(answer).abs()) {
             return None;
         }
-        self.deviates_by(Deviation::Factor(*own / self.exact(answer)))
+        self.deviates_by(Deviation::Factor(*number / self.exact(answer)))
     }
 
     /// Returns the number of decimals or digits of right numbers.
@@ -126,7 +126,7 @@ impl<'a> Output<'a> {
 impl Deviation {
     /// Returns the number expected for an exact one, the largest distance from it due to digits, and the factor of
     /// other rounding errors.
-    fn expected(&self, exact: &Exact, own: &Exact) -> (Exact, Exact, Exact) {
+    fn expected(&self, exact: &Exact, number: &Exact) -> (Exact, Exact, Exact) {
         let (zero, one) = (Exact::zero(), Exact::one());
         match self {
             Deviation::None => (exact.clone(), zero, one),
@@ -134,7 +134,7 @@ impl Deviation {
             Deviation::Factor(k) => (k * exact, decimal(1, -5) * (k * exact).abs(), k.abs()),
             // Rounded or cut off.
             Deviation::Decimals(n) => (exact.clone(), decimal(1, -(*n as i32)), one),
-            Deviation::Digits(n) => (exact.clone(), decimal(1, 1 - *n as i32) * own.abs(), one),
+            Deviation::Digits(n) => (exact.clone(), decimal(1, 1 - *n as i32) * number.abs(), one),
         }
     }
 

@@ -283,8 +283,9 @@ impl Program {
         let names = parameters(by_penalty);
         let mut all = Vec::new();
         for (i, x) in names.iter().enumerate() {
-            let own = Tree::symbol(x);
-            let used = [-&own, own.abs(), own.positive_part(), Tree::from(0), Tree::from(1)];
+            let parameter = Tree::symbol(x);
+            let [_, negated, bracketed, size] = signs(&parameter);
+            let used = [negated, size, bracketed, Tree::from(0), Tree::from(1)];
             for used in used {
                 all.push(Mistake::of_parameter(
                     format!("{used} is used for {x}"),
@@ -293,7 +294,7 @@ impl Program {
             }
             for y in &names[..i] {
                 let other = Tree::symbol(y);
-                let program = self.using(&[(x, other), (y, own.clone())]);
+                let program = self.using(&[(x, other), (y, parameter.clone())]);
                 all.push(Mistake::new(format!("{y} and {x} are swapped"), program));
             }
         }
@@ -303,16 +304,17 @@ impl Program {
     /// Returns the programs that return another quantity as u or N.
     fn with_one_output(&self) -> Vec<Mistake> {
         let [l, h, u, n] = ["l", "H", "u", "N"].map(|name| Tree::symbol(name));
-        let own = &symbols().system;
-        let (zero, p) = (Tree::from(0), contact::penetration(own, &u));
-        let force = augmented::contact_force(own, &u);
-        let sum = system::weight(own) + structure::spring_force(own, &u);
+        let system = &symbols().system;
+        let (zero, p) = (Tree::from(0), contact::penetration(system, &u));
+        let force = augmented::contact_force(system, &u);
+        let sum = system::weight(system) + structure::spring_force(system, &u);
         // At least −|l|.
         let bounded = -(-&u).min(&l.abs());
         let deflections =
             [-&u, u.abs(), u.positive_part(), zero.clone(), &l + &u, p.clone(), -p, h - l, bounded];
-        let forces = [-&n, n.abs(), zero.clone(), system::weight(own), structure::spring_force(own, &u), sum];
-        let forces = forces.into_iter().chain(signs(&force)).chain(signs(&system::reaction(own)));
+        let forces =
+            [-&n, n.abs(), zero.clone(), system::weight(system), structure::spring_force(system, &u), sum];
+        let forces = forces.into_iter().chain(signs(&force)).chain(signs(&system::reaction(system)));
         let mut returned = Vec::new();
         for u in deflections {
             returned.push((format!("{u} is returned as u"), [u, n.clone()]));
@@ -354,7 +356,7 @@ fn changes(tree: &Tree, known: &[&str]) -> Vec<Tree> {
     for (i, operand) in tree.op().operands().enumerate() {
         for new in changes(operand, known) {
             let mut places = 0..;
-            let op = tree.op().map(|own| if places.next() == Some(i) { new.clone() } else { own.clone() });
+            let op = tree.op().map(|old| if places.next() == Some(i) { new.clone() } else { old.clone() });
             all.push(tree.with_op(op));
         }
     }
@@ -380,54 +382,57 @@ fn changes_of_last(tree: &Tree, known: &[&str]) -> Vec<Tree> {
 
 /// Returns the right programs: each as it is written in the chapter, and as others write it.
 fn references(by_penalty: bool) -> Vec<Program> {
-    let (own, eps) = (&symbols().system, &symbols().eps);
+    let (system, eps) = (&symbols().system, &symbols().eps);
     let (u, p) = (Tree::symbol("u"), Tree::symbol("p"));
-    let (gap, reaction) = (("gap", system::gap(own)), ("R", system::reaction(own)));
+    let (gap, reaction) = (("gap", system::gap(system)), ("R", system::reaction(system)));
     let condition = Tree::symbol("R");
-    let apart = [structure::deflection(own), Tree::from(0)];
+    let apart = [structure::deflection(system), Tree::from(0)];
     let both = [gap.clone(), reaction.clone()];
     if by_penalty {
-        let touching = [penalty::deflection(own, eps), penalty::contact_force(own, eps, &u)];
-        let closed = ("p", penalty::penetration(own, eps));
+        let touching = [penalty::deflection(system, eps), penalty::contact_force(system, eps, &u)];
+        let closed = ("p", penalty::penetration(system, eps));
         let force = eps * &p;
-        let bracket = penalty::contact_force(own, eps, &u).positive_part();
+        let bracket = penalty::contact_force(system, eps, &u).positive_part();
         return vec![
             Program::with_branches(&both, condition.clone(), touching, apart.clone()),
             Program::without_branches(
                 std::slice::from_ref(&gap),
-                [penalty::unilateral_deflection(own, eps), bracket],
+                [penalty::unilateral_deflection(system, eps), bracket],
             ),
             Program::with_branches(
                 &[gap, reaction, closed],
                 condition,
-                [system::gap(own) + &p, force],
+                [system::gap(system) + &p, force],
                 apart,
             ),
         ];
     }
-    let trial = structure::deflection(own);
-    let predicted = [("u₀", trial.clone()), ("p", contact::penetration(own, &trial))];
+    let trial = structure::deflection(system);
+    let predicted = [("u₀", trial.clone()), ("p", contact::penetration(system, &trial))];
     vec![
         Program::with_branches(
             &both,
             condition.clone(),
-            [lagrange::deflection(own), lagrange::multiplier(own)],
+            [lagrange::deflection(system), lagrange::multiplier(system)],
             apart.clone(),
         ),
-        Program::without_branches(&both, [contact::deflection(own), contact::contact_force(own)]),
+        Program::without_branches(&both, [contact::deflection(system), contact::contact_force(system)]),
         Program::with_branches(
             &both,
             condition,
-            [lagrange::deflection(own), augmented::contact_force(own, &u)],
+            [lagrange::deflection(system), augmented::contact_force(system, &u)],
             apart.clone(),
         ),
         Program::with_branches(
             &predicted,
             p.clone(),
-            [lagrange::deflection(own), structure::spring_force(own, &p)],
+            [lagrange::deflection(system), structure::spring_force(system, &p)],
             apart,
         ),
-        Program::without_branches(&[gap], [contact::deflection(own), augmented::contact_force(own, &u)]),
+        Program::without_branches(
+            &[gap],
+            [contact::deflection(system), augmented::contact_force(system, &u)],
+        ),
     ]
 }
 
@@ -468,20 +473,20 @@ fn undecided(by_penalty: bool) -> Vec<Mistake> {
 
 /// Returns every program with one unknown number k.
 pub(super) fn numbers(by_penalty: bool) -> Vec<Mistake> {
-    let (own, k) = (&symbols().system, &Tree::symbol("k"));
+    let (system, k) = (&symbols().system, &Tree::symbol("k"));
     let first = reference(by_penalty);
     let mut all = Vec::new();
     for x in parameters(by_penalty) {
-        let own = Tree::symbol(x);
+        let parameter = Tree::symbol(x);
         for (name, used) in [
-            (format!("{x} is {{k}} times the right value"), k * &own),
+            (format!("{x} is {{k}} times the right value"), k * &parameter),
             (format!("{x} is always {{k}}"), k.clone()),
-            (format!("{{k}} is added to {x}"), &own + k),
+            (format!("{{k}} is added to {x}"), &parameter + k),
         ] {
             all.push(Mistake::of_parameter(name, first.using(&[(x, used)])));
         }
     }
-    let lengths = [("l", k * &own.l), ("H", k * &own.h)];
+    let lengths = [("l", k * &system.l), ("H", k * &system.h)];
     all.push(Mistake::new("l and H are {k} times the right values", first.using(&lengths)));
     let [u, n] = returned();
     for (name, [u, n]) in [
@@ -492,21 +497,21 @@ pub(super) fn numbers(by_penalty: bool) -> Vec<Mistake> {
         all.push(Mistake::new(name, Program { returned: [u, n], ..first.clone() }));
     }
     if !by_penalty {
-        all.extend(unrequested_penalties(own, k));
-        all.extend(augmentations(own, k));
+        all.extend(unrequested_penalties(system, k));
+        all.extend(augmentations(system, k));
     }
     all
 }
 
 /// Returns methods with the penalty ε = k, k c or k m.
-fn unrequested_penalties(own: &SpringMass<Tree>, k: &Tree) -> Vec<Mistake> {
-    let reaction = system::reaction(own);
-    let (free, zero) = (structure::deflection(own), Tree::from(0));
-    let exact = [lagrange::deflection(own), lagrange::multiplier(own)];
+fn unrequested_penalties(system: &SpringMass<Tree>, k: &Tree) -> Vec<Mistake> {
+    let reaction = system::reaction(system);
+    let (free, zero) = (structure::deflection(system), Tree::from(0));
+    let exact = [lagrange::deflection(system), lagrange::multiplier(system)];
     let mut all = Vec::new();
-    for (value, eps) in [("{k} N/m", k.clone()), ("{k} c", k * &own.c), ("{k}/s² m", k * &own.m)] {
-        let pulled = penalty::deflection(own, &eps);
-        let pull = penalty::contact_force(own, &eps, &Tree::symbol("u"));
+    for (value, eps) in [("{k} N/m", k.clone()), ("{k} c", k * &system.c), ("{k}/s² m", k * &system.m)] {
+        let pulled = penalty::deflection(system, &eps);
+        let pull = penalty::contact_force(system, &eps, &Tree::symbol("u"));
         let both = [pulled.clone(), pull.clone()];
         let updated = "only the update of the augmentation is bracketed";
         for (name, touching, apart) in [
@@ -529,19 +534,19 @@ fn unrequested_penalties(own: &SpringMass<Tree>, k: &Tree) -> Vec<Mistake> {
 const MAX_AUGMENTATIONS: i32 = 32;
 
 /// Returns augmentations from λ = 0 with ε = k N/m, which return N of the last step or of the one before.
-fn augmentations(own: &SpringMass<Tree>, k: &Tree) -> Vec<Mistake> {
-    let (zero, contraction) = (Tree::from(0), augmented::contraction(own, k));
+fn augmentations(system: &SpringMass<Tree>, k: &Tree) -> Vec<Mistake> {
+    let (zero, contraction) = (Tree::from(0), augmented::contraction(system, k));
     let (mut all, mut decay, mut force) = (Vec::new(), Tree::from(1), zero.clone());
     for steps in 1..=MAX_AUGMENTATIONS {
         // With ρᵏ⁻¹ of the steps before the last, and the rounding errors of an update.
-        let deflection = augmented::deflection_after(own, k, &zero, &decay);
-        let multiplier = augmented::multiplier_after(own, &zero, &decay);
-        let before = std::mem::replace(&mut force, augmented::update(own, k, &multiplier, &deflection));
+        let deflection = augmented::deflection_after(system, k, &zero, &decay);
+        let multiplier = augmented::multiplier_after(system, &zero, &decay);
+        let before = std::mem::replace(&mut force, augmented::update(system, k, &multiplier, &deflection));
         for (what, force) in [("", &force), (", and N is one step behind", &before)] {
             if steps > 1 || !what.is_empty() {
-                let apart = [structure::deflection(own), zero.clone()];
+                let apart = [structure::deflection(system), zero.clone()];
                 let touching = [deflection.clone(), force.clone()];
-                let program = Program::with_branches(&[], system::reaction(own), touching, apart);
+                let program = Program::with_branches(&[], system::reaction(system), touching, apart);
                 let name = format!("the augmentation stops after {steps} steps with ε = {{k}} N/m{what}");
                 all.push(Mistake { augmentations: Some(steps), ..Mistake::new(name, program) });
             }
