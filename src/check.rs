@@ -303,7 +303,7 @@ impl Report {
             return;
         }
         let mut causes = search.of_wrong(&wrong);
-        // Where the mistake would give the same answer, it tells nothing.
+        // Answers that the mistake would also give distinguish nothing.
         right.retain(|answer| !causes.iter().any(|cause| search.may_cause(cause, answer)));
         self.conditions = Condition::separating(&wrong, &right);
         if self.conditions.is_empty() {
@@ -426,7 +426,7 @@ impl<'a> FamilyResult<'a> {
 /// Number of results of a family that are kept, beside worse ones.
 const MAX_KEPT: usize = 1000;
 
-/// The results of a family in numbers.
+/// Counts and largest errors of the results of a family.
 #[derive(Clone, Debug, Default)]
 struct Tally {
     kept: usize,

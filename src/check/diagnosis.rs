@@ -160,7 +160,7 @@ impl<'a> Search<'a> {
         if found.is_empty() { self.outputs(wrong) } else { found }
     }
 
-    /// Returns `true` if an answer may also be right for the reason of wrong ones, so that it tells nothing.
+    /// Returns `true` if a right answer agrees with the cause of wrong ones, so that it distinguishes nothing.
     pub fn may_cause(&self, cause: &Cause, answer: &Observation) -> bool {
         match cause {
             Cause::Program(found) => found.may_give(answer, &self.fit),
