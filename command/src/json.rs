@@ -63,5 +63,8 @@ impl<'de: 'a, 'a> Deserialize<'de> for Object<'a> {
 
 /// Returns the contents of a string, or the original spelling of any other value, so that nothing is lost.
 pub fn text(value: &RawValue) -> Cow<'_, str> {
-    serde_json::from_str(value.get()).map_or(Cow::Borrowed(value.get()), Cow::Owned)
+    let spelling = value.get();
+    // Reading a number as a string would construct an error, which takes longer than to read the number.
+    let content = if spelling.starts_with('"') { serde_json::from_str(spelling).ok() } else { None };
+    content.map_or(Cow::Borrowed(spelling), Cow::Owned)
 }
