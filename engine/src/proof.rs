@@ -41,7 +41,7 @@ pub mod render;
 mod search;
 mod trace;
 
-pub use bounds::{NoBound, RoundingBound, rounding_bound};
+pub use bounds::{RoundingBound, RoundingBoundError, rounding_bound};
 pub use check::{MAX_DEPTH, MAX_SIZE, Proof};
 pub use effort::MAX_EFFORT;
 pub use hints::sufficient_hypothesis;

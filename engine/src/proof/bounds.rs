@@ -40,20 +40,20 @@ impl RoundingBound {
 
 /// Error of a search for a bound.
 #[derive(Clone, Debug)]
-pub struct NoBound {
+pub struct RoundingBoundError {
     /// First formula without a bound of its rounding error.
     pub formula: Tree,
     /// The reason.
     pub reason: ProofError,
 }
 
-impl fmt::Display for NoBound {
+impl fmt::Display for RoundingBoundError {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "no bound of the rounding error of {} was found: {}", self.formula, self.reason)
     }
 }
 
-impl std::error::Error for NoBound {}
+impl std::error::Error for RoundingBoundError {}
 
 /// Returns the smallest constant K, up to 2 %, for which |fl(f) − f| ≤ K m/2ᵖ is proved from hypotheses for
 /// every precision p, with its proof. Here fl(f) is `of` with [each operation rounded](Tree::with_rounding),
@@ -76,11 +76,15 @@ impl std::error::Error for NoBound {}
 /// let bound = rounding_bound(&inverse, &Tree::int(1), &[in_interval, half_or_more])?;
 /// // Half of a unit in the last place of 1/2 for the quotient, and as much for the sum.
 /// assert!(1.0 <= bound.constant() && bound.constant() <= 1.03);
-/// # Ok::<(), provable::proof::NoBound>(())
+/// # Ok::<(), provable::proof::RoundingBoundError>(())
 /// ```
 /// # Errors
 /// Returns the first formula for which no bound is found, with the reason.
-pub fn rounding_bound(of: &Tree, scale: &Tree, hypotheses: &[Hypothesis]) -> Result<RoundingBound, NoBound> {
+pub fn rounding_bound(
+    of: &Tree,
+    scale: &Tree,
+    hypotheses: &[Hypothesis],
+) -> Result<RoundingBound, RoundingBoundError> {
     let forms = [Form::Absolute, Form::Relative, Form::Opaque].into_par_iter();
     let all = forms.map(|form| Chain::new(of, hypotheses, form).bound(of, scale));
     let (mut failed, mut found): (Vec<_>, Vec<_>) = all.partition_map(|chain| match chain {
@@ -91,7 +95,7 @@ pub fn rounding_bound(of: &Tree, scale: &Tree, hypotheses: &[Hypothesis]) -> Res
     for (constant, claim) in found {
         match prove(&claim) {
             Ok(proof) => return Ok(RoundingBound { constant, proof }),
-            Err(reason) => failed.push(NoBound { formula: exact(of), reason }),
+            Err(reason) => failed.push(RoundingBoundError { formula: exact(of), reason }),
         }
     }
     Err(failed.swap_remove(0))
@@ -195,9 +199,9 @@ impl Chain {
         Chain { hypotheses, form, named: Vec::new(), taken }
     }
 
-    fn bound(mut self, of: &Tree, scale: &Tree) -> Result<(f64, Statement), NoBound> {
+    fn bound(mut self, of: &Tree, scale: &Tree) -> Result<(f64, Statement), RoundingBoundError> {
         let formula = exact(of);
-        let no_bound = |reason| NoBound { formula: formula.clone(), reason };
+        let no_bound = |reason| RoundingBoundError { formula: formula.clone(), reason };
         let rounded = if of.contains_rounding() { of.clone() } else { of.with_rounding() };
         for rounding in check::roundings([&rounded].into_iter()) {
             let node = rounding.round();
@@ -216,9 +220,9 @@ impl Chain {
     }
 
     /// Adds a rounded result with a bound of its error.
-    fn name(&mut self, node: &Tree) -> Result<(), NoBound> {
+    fn name(&mut self, node: &Tree) -> Result<(), RoundingBoundError> {
         let (formula, computed) = (exact(node), self.computed(node));
-        let no_bound = |reason| NoBound { formula: formula.clone(), reason };
+        let no_bound = |reason| RoundingBoundError { formula: formula.clone(), reason };
         let value = self.value(&formula);
         let has_sign = |of: &Tree| self.proves(Proposition::Sign(Relation::NonNegative, of.clone())).is_ok();
         let error = &computed - &value;

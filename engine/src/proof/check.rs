@@ -404,16 +404,16 @@ impl Source for List<'_> {
 impl<S: Source> Reader<'_, S> {
     /// Checks the goal under the assumptions of cases.
     pub(in crate::proof) fn leaf(&mut self, leaf: &Leaf, cases: &[(Polynomial, Sign)]) -> Checked<()> {
-        self.suppose_cases(cases);
+        self.assume_cases(cases);
         leaf.hypotheses.iter().try_for_each(|i| self.assume(*i))?;
         self.conclude(leaf, cases)
     }
 
     /// Uses the assumptions of cases.
-    pub(in crate::proof) fn suppose_cases(&mut self, cases: &[(Polynomial, Sign)]) {
+    pub(in crate::proof) fn assume_cases(&mut self, cases: &[(Polynomial, Sign)]) {
         for (case, sign) in cases {
-            let fact = self.state.suppose(case.clone(), *sign);
-            self.state.supposed.push((None, fact));
+            let fact = self.state.add_fact(case.clone(), *sign);
+            self.state.assumed.push((None, fact));
         }
     }
 
@@ -466,7 +466,7 @@ impl<S: Source> Reader<'_, S> {
         let at_x = self.state.signs.get(rise.x).copied().flatten();
         let at_x = at_x.filter(|sign| sign.implies(Sign::NonNegative)).ok_or(Refusal::Rise)?;
         let sign = Sign::from(rise.start).plus(at_x.times(rise.slope.into())).ok_or(Refusal::Rise)?;
-        self.state.suppose(rise.of.clone(), sign);
+        self.state.add_fact(rise.of.clone(), sign);
         Ok(())
     }
 }

@@ -120,7 +120,7 @@ fn obstacle(reason: &ProofError) -> Option<Tree> {
         })
     };
     let num = effort::bounded(in_own_symbols)?.num().clone();
-    let rest = num.over(&num.common_monomial().into())?;
+    let rest = num.checked_div(&num.common_monomial().into())?;
     (rest.terms().len() <= MAX_OBSTACLE as usize).then(|| formula(&rest, context))
 }
 

@@ -39,13 +39,13 @@ use super::check::{
     parts_of_rise,
 };
 use super::effort::{self, MAX_EFFORT};
-use crate::formula::statement::{Goal, Proposition, Statement};
+use crate::formula::statement::{Proposition, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
 use crate::number::tree::Op;
 use algebra::{Poly, Ratio};
 use dictionary::integral;
-use knowledge::{Knowledge, Supposed};
+use knowledge::{AssumedFact, Knowledge};
 use source::Search;
 
 /// The reason why a search ended without a leaf.
@@ -119,8 +119,8 @@ const MAX_RISES: usize = 4;
 pub fn prove(statement: &Statement) -> Result<Proof, ProofError> {
     check::check_premises(statement)?;
     let goals: Vec<_> = bounded(|| {
-        let solve = |goal: &Goal| solve(&goal.proposition, statement.hypotheses_for(goal.role));
-        statement.goals().iter().map(solve).collect()
+        let goals = statement.goals().iter();
+        goals.map(|goal| solve(&goal.proposition, statement.hypotheses_for(goal.role))).collect()
     })?;
     check(statement, &goals).map_err(|_| ProofError::NotExpressed("the checker refuses it"))
 }
@@ -133,9 +133,10 @@ pub(in crate::proof) fn prove_proposition(
     proposition: &Proposition,
     hypotheses: Vec<&Hypothesis>,
 ) -> Result<Node, ProofError> {
-    let trees = || hypotheses.iter().map(|given| &given.value).chain(proposition.trees());
-    check::check_size(trees())?;
-    let roundings = check::roundings(trees());
+    let trees: Vec<&Tree> =
+        hypotheses.iter().map(|hypothesis| &hypothesis.value).chain(proposition.trees()).collect();
+    check::check_size(trees.iter().copied())?;
+    let roundings = check::roundings(trees.into_iter());
     if roundings.len() > check::MAX_ROUNDINGS {
         return Err(Premise::TooManyRoundings.into());
     }
@@ -236,9 +237,9 @@ impl<'a> Attempt<'a> {
             return reason;
         }
         let is_limit = self.problem.variable().is_some();
-        let asked = if is_limit { state.value(self.problem.goal[0]) } else { search.asked.as_ref() };
-        let Some(asked) = asked else { return reason };
-        let value = search.known.reduced_quotient(asked, state);
+        let required = if is_limit { state.value(self.problem.goal[0]) } else { search.required.as_ref() };
+        let Some(required) = required else { return reason };
+        let value = search.known.reduced_quotient(required, state);
         let quantity = search.known.quantity(value.clone());
         match search.known.sign(value) {
             _ if is_limit => ProofError::UnknownLimit(quantity).into(),
@@ -249,21 +250,22 @@ impl<'a> Attempt<'a> {
 
     /// Returns a proof in the two cases of a quantity.
     fn cases(&self, search: &Search, script: &[Decision], at: usize, value: &Ratio) -> Result<Node, Failure> {
-        let is_case = |decision: &&Decision| matches!(decision, Decision::Case { .. });
-        if script.iter().filter(is_case).count() >= MAX_NESTED_CASES {
+        if script.iter().filter_map(case).count() >= MAX_NESTED_CASES {
             return Err(Failure::Branch(search.known.quantity(value.clone())));
         }
         let (known, state) = (&search.known, check::State::new(self.problem));
         let deciding = known.context.sign_numerator(value);
         let own = known.own(&deciding.clone().into());
         let (on, _) = integral(own.num(), own.num());
-        let scale = own.over(&on.clone().into()).ok_or("a case of nothing")?;
+        let scale = own.checked_div(&on.clone().into()).ok_or("a case of nothing")?;
         let on = known.polynomial(&on, &state).ok_or("the quantity of a case")?;
-        let prove = |sign| {
+        let mut nodes = Vec::with_capacity(2);
+        for sign in [Sign::Positive, Sign::NonPositive] {
             let (deciding, on, scale) = (deciding.clone(), on.clone(), scale.clone());
-            self.certify(&[script, &[Decision::Case { at, deciding, on, scale, sign }]].concat())
-        };
-        let both = [prove(Sign::Positive)?, prove(Sign::NonPositive)?];
+            let case = Decision::Case { at, deciding, on, scale, sign };
+            nodes.push(self.certify(&[script, &[case]].concat())?);
+        }
+        let both = <[Node; 2]>::try_from(nodes).map_err(|_| "both cases")?;
         Ok(Node::Cases(on, both.into()))
     }
 
@@ -272,20 +274,19 @@ impl<'a> Attempt<'a> {
         let known = Knowledge::new(self.problem);
         leaf.orders = self.orders();
         let is_ordered = !leaf.orders.is_empty();
-        let (early, sizes, failure, asked) = Default::default();
-        Search { known, early, leaf, sizes, is_ordered, position: 0, failure, asked }
+        let (early, sizes, failure, required) = Default::default();
+        Search { known, early, leaf, sizes, is_ordered, position: 0, failure, required }
     }
 
     /// Lets the reader check the goal, and lists the hypotheses that it uses.
     fn read(&self, reader: &mut Reader<'a, Search<'a>>, decisions: &[Decision]) -> Result<(), Failure> {
         let cases: Vec<_> = decisions.iter().filter_map(case).collect();
-        reader.suppose_cases(&cases);
+        reader.assume_cases(&cases);
         let order = self.order();
         for (position, i) in order.iter().enumerate() {
             reader.source.follow(position, decisions);
             let hypothesis = self.problem.hypotheses[*i];
-            let is_late = |by| hypothesis.value.symbols().contains(by);
-            if reader.source.early.is_none() && self.problem.variable().is_some_and(is_late) {
+            if reader.source.early.is_none() && self.mentions_variable(hypothesis) {
                 reader.source.early = Some(reader.source.known.clone());
             }
             let interval = hypothesis.interval();
@@ -295,22 +296,22 @@ impl<'a> Attempt<'a> {
                 continue;
             }
             let Some((x, lower, upper)) = interval else {
-                let supposed = self.assume(reader, *i)?;
+                let fact = self.assume(reader, *i)?;
                 let value = reader.value(self.problem.values[*i])?;
                 let value = reader.source.known.ratio(&value, &reader.state);
-                reader.source.known.assume(hypothesis, value, supposed);
+                reader.source.known.assume(hypothesis, value, fact);
                 continue;
             };
             let ends = [reader.translate(lower)?, reader.translate(upper)?];
             let ends = ends.map(|end| reader.source.known.ratio(&end, &reader.state));
             self.assume(reader, *i)?;
             reader.source.known.assume_interval(*i, x, ends)?;
-            // What is known of the symbol is used again, for its value in the interval.
+            // Hypotheses about the symbol are used again, for its value in the interval.
             for i in reader.source.leaf.hypotheses.clone() {
                 let earlier = self.problem.hypotheses[i];
                 if earlier.interval().is_none() && earlier.value.symbols().contains(x) {
-                    let supposed = self.assume(reader, i)?;
-                    reader.source.known.assume_again(earlier, supposed);
+                    let fact = self.assume(reader, i)?;
+                    reader.source.known.assume_again(earlier, fact);
                 }
             }
         }
@@ -322,21 +323,24 @@ impl<'a> Attempt<'a> {
     }
 
     /// Lets the reader use a hypothesis, and returns its fact.
-    fn assume(&self, reader: &mut Reader<'a, Search<'a>>, i: usize) -> Result<Supposed, Failure> {
+    fn assume(&self, reader: &mut Reader<'a, Search<'a>>, i: usize) -> Result<AssumedFact, Failure> {
         reader.assume(i)?;
         reader.source.leaf.hypotheses.push(i);
         let den = reader.state.value(self.problem.values[i]).map(|value| value.den.clone());
         let fact = reader.state.facts.iter().len() - 1;
-        Ok(Supposed { fact, den: den.unwrap_or_default(), scale: Poly::constant(1).into() })
+        Ok(AssumedFact { fact, den: den.unwrap_or_default(), scale: Poly::constant(1).into() })
     }
 
     /// Returns the numbers of the hypotheses, those on the variable of a limit last.
     fn order(&self) -> Vec<usize> {
         let mut order: Vec<_> = (0..self.problem.hypotheses.len()).collect();
-        if let Some(by) = self.problem.variable() {
-            order.sort_by_key(|i| self.problem.hypotheses[*i].value.symbols().contains(by));
-        }
+        order.sort_by_key(|i| self.mentions_variable(self.problem.hypotheses[*i]));
         order
+    }
+
+    /// Returns `true` if a hypothesis contains the variable of the limit to be proved.
+    fn mentions_variable(&self, hypothesis: &Hypothesis) -> bool {
+        self.problem.variable().is_some_and(|by| hypothesis.value.symbols().contains(by))
     }
 
     /// Returns the pairs of rounded formulas whose order the goal rests on.
@@ -347,9 +351,13 @@ impl<'a> Attempt<'a> {
         {
             collect_orders(a, b, &mut pairs);
         }
+        pairs.into_iter().filter_map(|(a, b)| Some([self.error(a)?, self.error(b)?])).collect()
+    }
+
+    /// Returns the variable of the error of a rounded formula.
+    fn error(&self, of: &Tree) -> Option<usize> {
         let table = &self.problem.table;
-        let error = |of: &Tree| table.variable(Atom::Error(table.find(of).ok()?)).ok();
-        pairs.into_iter().filter_map(|(a, b)| Some([error(a)?, error(b)?])).collect()
+        table.variable(Atom::Error(table.find(of).ok()?)).ok()
     }
 
     /// Adds the proofs of its parts to a function that rises.
@@ -361,10 +369,8 @@ impl<'a> Attempt<'a> {
         let mut parts = Vec::new();
         for (proposition, assumed) in parts_of_rise(problem, &rise, x)?.iter() {
             let others = problem.hypotheses.iter().copied();
-            let others: Vec<_> =
-                others.filter(|given| !given.value.symbols().contains(x)).chain(assumed).collect();
-            let part = Problem::new(proposition, others)?;
-            let part = part.within(problem)?;
+            let others = others.filter(|other| !other.value.symbols().contains(x)).chain(assumed);
+            let part = Problem::new(proposition, others.collect())?.within(problem)?;
             parts.push(Attempt { problem: &part }.certify(&[])?);
         }
         rise.parts = <[Node; 3]>::try_from(parts).map_err(|_| "the parts of a rise")?;

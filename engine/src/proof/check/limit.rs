@@ -83,7 +83,7 @@ impl<'p, S: Source> Reader<'p, S> {
             coefficients.split_off(1).iter().map(|of| self.strict(of)).collect::<Checked<_>>()?;
         match excess.cmp(&0) {
             Ordering::Less => Ok(Polynomial::zero().into()),
-            Ordering::Equal => Ok(Quotient::over(coefficients.swap_remove(0), den)),
+            Ordering::Equal => Ok(Quotient::new(coefficients.swap_remove(0), den)),
             Ordering::Greater => Err(Refusal::Limit),
         }
     }

@@ -25,7 +25,7 @@ impl From<Polynomial> for Quotient {
 
 impl Quotient {
     /// Returns the quotient whose denominator has these factors.
-    pub fn over(num: Polynomial, mut den: Vec<usize>) -> Self {
+    pub fn new(num: Polynomial, mut den: Vec<usize>) -> Self {
         den.sort_unstable();
         Quotient { num, den }
     }
@@ -33,7 +33,7 @@ impl Quotient {
     /// Returns the product.
     pub fn times(&self, other: &Self) -> Checked<Self> {
         let den = [&self.den[..], &other.den].concat();
-        Ok(Quotient::over(self.num.times(&other.num)?, den))
+        Ok(Quotient::new(self.num.times(&other.num)?, den))
     }
 }
 
@@ -89,7 +89,7 @@ impl Facts {
     /// Returns a + n b.
     pub fn sum(&self, a: &Quotient, n: i128, b: &Quotient) -> Checked<Quotient> {
         let (a, b, den) = self.with_common_denominator(a, b)?;
-        Ok(Quotient::over(a.plus_multiple(n, &b)?, den))
+        Ok(Quotient::new(a.plus_multiple(n, &b)?, den))
     }
 
     /// Returns `true` if two quotients are equal, as functions of the variables.

@@ -23,7 +23,7 @@ pub struct State<'p> {
     /// The known signs of variables.
     pub signs: Vec<Option<Sign>>,
     /// The hypotheses, or cases, that are facts, with the numbers of these.
-    pub supposed: Vec<(Option<usize>, usize)>,
+    pub assumed: Vec<(Option<usize>, usize)>,
     /// The rounded formulas met so far.
     pub rounded: Vec<Rounded>,
     /// The formulas whose absolute values are atoms.
@@ -79,12 +79,12 @@ impl<'p> State<'p> {
         });
         let mut facts = Facts::default();
         facts.add(Polynomial::constant(2), Sign::Positive);
-        let (supposed, rounded, sizes, exponents, places, values) = Default::default();
-        State { problem, facts, signs: signs.collect(), supposed, rounded, sizes, exponents, places, values }
+        let (assumed, rounded, sizes, exponents, places, values) = Default::default();
+        State { problem, facts, signs: signs.collect(), assumed, rounded, sizes, exponents, places, values }
     }
 
     /// Adds a fact and returns its number.
-    pub fn suppose(&mut self, of: Polynomial, sign: Sign) -> usize {
+    pub fn add_fact(&mut self, of: Polynomial, sign: Sign) -> usize {
         if let Some(known) = of.as_variable().and_then(|x| self.signs.get_mut(x))
             && !known.is_some_and(|known| known.implies(sign))
         {
@@ -94,9 +94,9 @@ impl<'p> State<'p> {
     }
 
     /// Adds the fact that follows from the sign of a quotient, and returns its number.
-    pub fn suppose_quotient(&mut self, of: Quotient, sign: Sign) -> Checked<usize> {
+    pub fn add_quotient(&mut self, of: Quotient, sign: Sign) -> Checked<usize> {
         let sign = self.facts.sign_of_product(&of.den)?.times(sign);
-        Ok(self.suppose(of.num, sign))
+        Ok(self.add_fact(of.num, sign))
     }
 
     /// Returns the variable of an atom as a polynomial.
@@ -131,7 +131,7 @@ impl<'p, S: Source> Reader<'p, S> {
             }
             Reason::Certificate(certificate) => {
                 let sign = self.state.certify(of, &certificate)?;
-                Ok((sign, self.state.suppose(of.clone(), sign)))
+                Ok((sign, self.state.add_fact(of.clone(), sign)))
             }
         }
     }
@@ -237,7 +237,7 @@ impl<'p, S: Source> Reader<'p, S> {
         let size = self.state.problem.table.variable(Atom::Size(x))?;
         let product = Polynomial::variable(size)?.times(&self.state.variable(Atom::Factor(x))?)?;
         let product = product.times(&self.state.facts.product(&value.den)?)?;
-        let fact = self.state.suppose(value.num.plus_multiple(-1, &product)?, Sign::Zero);
+        let fact = self.state.add_fact(value.num.plus_multiple(-1, &product)?, Sign::Zero);
         self.state.sizes.push(Size { value, size, fact });
         Ok(size)
     }
@@ -253,7 +253,7 @@ impl<'p, S: Source> Reader<'p, S> {
         if self.state.facts.product(&den)? != of.num {
             return Err(Refusal::Divisor);
         }
-        Ok(Quotient::over(self.state.facts.product(&of.den)?, den))
+        Ok(Quotient::new(self.state.facts.product(&of.den)?, den))
     }
 
     /// Returns an exponential. Equal exponents have the same one.
@@ -328,14 +328,14 @@ impl<'p, S: Source> Reader<'p, S> {
             let (sum, length) =
                 (self.state.facts.sum(&upper, 1, &lower)?, self.state.facts.sum(&upper, -1, &lower)?);
             let half = Quotient { num: Polynomial::constant(1), den: vec![TWO] };
-            let place = self.state.variable(Atom::Place(i))?.into();
+            let place = self.state.variable(Atom::IntervalParameter(i))?.into();
             let value = self.state.facts.sum(&sum.times(&half)?, 1, &length.times(&half)?.times(&place)?)?;
             self.state.places.entry(x).or_insert(value);
             self.state.values.clear();
         } else {
             let value = self.value(problem.values[i])?;
-            let fact = self.state.suppose_quotient(value, hypothesis.relation.into())?;
-            self.state.supposed.push((Some(i), fact));
+            let fact = self.state.add_quotient(value, hypothesis.relation.into())?;
+            self.state.assumed.push((Some(i), fact));
         }
         Ok(())
     }
@@ -352,7 +352,7 @@ impl<'p, S: Source> Reader<'p, S> {
         }
         let [a, b] = [a, b].map(|of| self.state.problem.table.number(&Op::Rounded(of)));
         let rounded = self.sum(a?, -1, b?)?;
-        self.state.suppose_quotient(rounded, Sign::NonNegative)?;
+        self.state.add_quotient(rounded, Sign::NonNegative)?;
         Ok(())
     }
 }

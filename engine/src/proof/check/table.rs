@@ -25,7 +25,7 @@ pub enum Atom {
     Size(usize),
     /// The place of a symbol in the interval of the hypothesis with this number: t with −1 ≤ t ≤ 1 at which
     /// the symbol is the midpoint plus t times half the length.
-    Place(usize),
+    IntervalParameter(usize),
     /// The factor of the formula with this number: t with −1 ≤ t ≤ 1 such that the formula is t times its
     /// absolute value.
     Factor(usize),
@@ -117,7 +117,7 @@ impl Table {
 
     /// Returns `true` if a variable is between −1 and 1.
     pub fn is_unit(&self, x: usize) -> bool {
-        matches!(self.atoms.get(x), Some(Atom::Error(_) | Atom::Place(_) | Atom::Factor(_)))
+        matches!(self.atoms.get(x), Some(Atom::Error(_) | Atom::IntervalParameter(_) | Atom::Factor(_)))
     }
 
     /// Returns a polynomial of symbols and exponentials as a formula.
@@ -171,7 +171,7 @@ impl Table {
         }
         for (i, hypothesis) in hypotheses.iter().enumerate() {
             if hypothesis.interval().is_some() {
-                self.add_atom(Atom::Place(i));
+                self.add_atom(Atom::IntervalParameter(i));
             }
         }
         self.atoms.sort_unstable();
@@ -215,7 +215,7 @@ impl<'a> Problem<'a> {
             Some(Atom::Error(of) | Atom::Size(of) | Atom::Factor(of) | Atom::Exponential(of)) => {
                 self.table.formula(*of).is_ok_and(|tree| tree.symbols().contains(symbol))
             }
-            Some(Atom::Place(i)) => self.hypotheses[*i].value.symbols().contains(symbol),
+            Some(Atom::IntervalParameter(i)) => self.hypotheses[*i].value.symbols().contains(symbol),
             None => true,
         }
     }

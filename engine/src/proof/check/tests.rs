@@ -61,7 +61,7 @@ impl<'a> Page<'a> {
         };
         let is_of_kind = |atom: &Atom| match letter {
             'e' => matches!(atom, Atom::Error(_)),
-            't' => matches!(atom, Atom::Place(_)),
+            't' => matches!(atom, Atom::IntervalParameter(_)),
             'E' => matches!(atom, Atom::Exponential(_)),
             'S' => matches!(atom, Atom::Size(_)),
             'F' => matches!(atom, Atom::Factor(_)),

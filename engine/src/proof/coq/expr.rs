@@ -54,7 +54,7 @@ impl Expr {
         if self.is(1) { other } else { Expr::binary(Operator::Mul, self, other) }
     }
 
-    pub(super) fn over(self, other: Expr) -> Self {
+    pub(super) fn divided_by(self, other: Expr) -> Self {
         if other.is(1) { self } else { Expr::binary(Operator::Div, self, other) }
     }
 

@@ -200,7 +200,7 @@ impl Script {
                     let of = place.formula(of)?;
                     (format!("model prec choice {precision} P E {of}"), format!("s{x} & B{x} & F{x}"))
                 }
-                Atom::Place(i) => {
+                Atom::IntervalParameter(i) => {
                     let is_near = place.problem.hypotheses[i].distance().is_some();
                     let rule = if is_near { "near" } else { "between" };
                     (format!("{rule} _ _ _ {}", place.label(i)?), format!("s{x} & B{x} & F{x}"))

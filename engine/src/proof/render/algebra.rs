@@ -222,7 +222,8 @@ mod tests {
             assert_eq!(order.poly_or_size(&short), order.poly(&short).to_string());
             assert_eq!(order.poly_or_size(&long), format!("a sum of {} terms", shown + 1));
             // A quotient is written out if both of its parts are.
-            let ratio = |num: &Poly, den: &Poly| Ratio::from(num.clone()).over(&den.clone().into()).unwrap();
+            let ratio =
+                |num: &Poly, den: &Poly| Ratio::from(num.clone()).checked_div(&den.clone().into()).unwrap();
             let other = |many: usize| Poly::constant(1) + powers(x.clone(), many);
             let both = ratio(&short, &other(shown));
             assert_eq!(order.ratio_or_size(&both), order.ratio(&both).to_string());

@@ -68,7 +68,7 @@ impl<'a> Lines<'a> {
         let atoms = atoms.map(|atom| match atom {
             Atom::Own(name) => Tree::symbol(name),
             Atom::Error(_) => Tree::symbol(subscripted('e', errors.next().unwrap_or_default())),
-            Atom::Place(_) | Atom::Factor(_) => {
+            Atom::IntervalParameter(_) | Atom::Factor(_) => {
                 Tree::symbol(subscripted('t', places.next().unwrap_or_default()))
             }
             Atom::Size(of) => formula(of).abs(),
@@ -92,7 +92,7 @@ impl<'a> Lines<'a> {
             Atom::Own(_) | Atom::Size(_) | Atom::Exponential(_) => self.text(own),
             Atom::Error(of) => format!("{own}: {}({})", self.rounding(*of), self.formula(*of)),
             Atom::Factor(of) => format!("{own}: {0} = {own} |{0}|", self.formula(*of)),
-            Atom::Place(i) => {
+            Atom::IntervalParameter(i) => {
                 let name = self.printer.registry.format_hypothesis(self.problem.hypotheses[*i]);
                 format!("{own}: from −1 to 1 in {name}")
             }
@@ -160,7 +160,7 @@ impl<'a> Lines<'a> {
         // What was translated before is translated again without the help of a proof.
         let mut written = Vec::new();
         let mut reader = reread(state);
-        for (i, fact) in reader.state.supposed.clone() {
+        for (i, fact) in reader.state.assumed.clone() {
             if let Some(given) = i.map(|i| self.problem.hypotheses[i])
                 && let Ok(value) = reader.translate(&given.value)
                 && reader.state.facts.get(fact).is_ok_and(|(of, _)| value == of.clone().into())
@@ -168,7 +168,7 @@ impl<'a> Lines<'a> {
                 written.push((fact, given.value.clone()));
             }
         }
-        let facts_of_cases = reader.state.supposed.iter().filter(|(given, _)| given.is_none());
+        let facts_of_cases = reader.state.assumed.iter().filter(|(given, _)| given.is_none());
         let names = cases.iter().enumerate().map(|(depth, (on, _))| self.case(on, &cases[..depth]));
         written.extend(facts_of_cases.map(|(_, fact)| *fact).zip(names));
         let decisions = self.decisions(leaf, &mut reader);
@@ -226,7 +226,7 @@ impl<'a> Lines<'a> {
     fn place(&self, i: usize) -> Option<String> {
         let given = *self.problem.hypotheses.get(i)?;
         let (x, lower, upper) = given.interval()?;
-        let place = &self.atoms[self.problem.table.variable(Atom::Place(i)).ok()?];
+        let place = &self.atoms[self.problem.table.variable(Atom::IntervalParameter(i)).ok()?];
         let by = format!("by {}: ", self.printer.registry.format_hypothesis(given));
         let [lower, upper] = [lower, upper].map(|end| self.text(end));
         let distance = given.distance();

@@ -34,7 +34,7 @@ impl ProofPrinter<'_> {
                     let rounded = of.context.roundings.get(usize::from(i));
                     definitions.extend(rounded.map(|of| self.error(symbol.name(), of)));
                 }
-                Symbol::Slack(_) | Symbol::Place(_) => {
+                Symbol::Slack(_) | Symbol::IntervalParameter(_) => {
                     let of_case = || format!("{} ≥ 0 in one case of the proof", symbol.name());
                     definitions.push(self.definition(symbol, &of.context).unwrap_or_else(of_case));
                 }
@@ -81,7 +81,7 @@ impl ProofPrinter<'_> {
         context.assumptions.iter().find_map(|assumption| match &assumption.usage {
             AssumptionUse::Pivot(_, _, Some(slack)) if is_it(*slack) => {
                 let given = assumption.hypothesis.as_ref()?;
-                let quotient = assumption.divisor.as_ref().and_then(|by| assumption.value.over(by));
+                let quotient = assumption.divisor.as_ref().and_then(|by| assumption.value.checked_div(by));
                 let value = quotient.map(|value| order.ratio_or_size(&value));
                 let value = value.unwrap_or_else(|| self.text(&given.value));
                 Some(format!("{} = {value} {} 0", symbol.name(), given.relation))

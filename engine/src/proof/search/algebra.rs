@@ -184,6 +184,11 @@ impl Poly {
         }
     }
 
+    /// Returns `true` if a variable occurs in an exponent.
+    pub fn has_in_exponent(&self, x: usize) -> bool {
+        self.exponents().any(|exponent| exponent.variables().contains(&x))
+    }
+
     /// Returns the degree in a variable.
     pub fn degree(&self, x: usize) -> u8 {
         self.monomials().map(|m| m.degree(x)).max().unwrap_or(0)
@@ -201,7 +206,7 @@ impl Poly {
     }
 
     /// Returns the exact quotient, if there is one and the divisor's last term has no e^….
-    pub fn over(&self, divisor: &Self) -> Option<Self> {
+    pub fn checked_div(&self, divisor: &Self) -> Option<Self> {
         let [others @ .., (leading, coefficient)] = &divisor.0[..] else { return None };
         if divisor.is_one() {
             return Some(self.clone());
@@ -218,7 +223,7 @@ impl Poly {
             if q.sign().is_eq() {
                 continue;
             }
-            let (m, q) = (m.over(leading)?, q * &inverse);
+            let (m, q) = (m.checked_div(leading)?, q * &inverse);
             if !effort::spend(others.iter().map(|(n, _)| 1 + n.count() + m.count()).sum()) {
                 return None;
             }
@@ -231,6 +236,11 @@ impl Poly {
         Some(quotient.into_iter().collect())
     }
 
+    /// Returns the exact quotient by a divisor other than 1, if there is one.
+    fn cancel(&self, divisor: &Self) -> Option<Self> {
+        if divisor.is_one() { None } else { self.checked_div(divisor) }
+    }
+
     /// Returns the greatest product of powers of variables that divides every term.
     pub fn common_monomial(&self) -> Monomial {
         let mut monomials = self.monomials();
@@ -240,11 +250,10 @@ impl Poly {
 
     /// Returns the derivative with respect to a variable, which is a quotient because exponents are.
     pub fn derivative(&self, x: usize) -> Ratio {
-        let lowered = |m: &Monomial, q: &Number| {
-            Some((m.over(&Monomial::of(x))?, q * Number::from(i32::from(m.degree(x)))))
-        };
-        let powers: Poly = self.0.iter().filter_map(|(m, q)| lowered(m, q)).collect();
-        self.0.iter().fold(powers.into(), |sum, (m, q)| match m.exponent() {
+        let derivatives = self.0.iter().filter_map(|(m, q)| {
+            Some((m.checked_div(&Monomial::of(x))?, q * Number::from(i32::from(m.degree(x)))))
+        });
+        self.0.iter().fold(derivatives.collect::<Poly>().into(), |sum, (m, q)| match m.exponent() {
             None => sum,
             Some(e) => sum + Ratio::from(Poly::from_iter([(m.clone(), q.clone())])) * e.derivative(x),
         })
@@ -258,7 +267,7 @@ impl Poly {
         let mut by_power: Vec<Vec<(Monomial, Number)>> = Vec::new();
         for (m, q) in self.0.iter() {
             let (mut rest, mut power) = (m.without_exponential(), 0);
-            while let Some(quotient) = rest.over(pivot) {
+            while let Some(quotient) = rest.checked_div(pivot) {
                 rest = quotient;
                 power += 1;
             }
@@ -319,7 +328,7 @@ impl Ratio {
             let inverse = Poly::exponential(-&**e);
             (num, den) = (num * &inverse, den * inverse);
         }
-        if let Some(quotient) = num.over(&den) {
+        if let Some(quotient) = num.checked_div(&den) {
             return quotient.into();
         }
         if let Some((_, q)) = den.0.last()
@@ -335,10 +344,10 @@ impl Ratio {
         if self.den == other.den {
             return Ratio::new(&self.num + &other.num, self.den.clone());
         }
-        if let Some(k) = other.den.over(&self.den) {
+        if let Some(k) = other.den.checked_div(&self.den) {
             return Ratio::new(&self.num * k + &other.num, other.den.clone());
         }
-        if let Some(k) = self.den.over(&other.den) {
+        if let Some(k) = self.den.checked_div(&other.den) {
             return Ratio::new(&self.num + &other.num * k, self.den.clone());
         }
         Ratio::new(&self.num * &other.den + &other.num * &self.den, &self.den * &other.den)
@@ -346,15 +355,14 @@ impl Ratio {
 
     fn times(&self, other: &Self) -> Self {
         // Cancels denominators that divide the opposite numerator.
-        let cancel = |num, den: &Poly| if den.is_one() { None } else { Poly::over(num, den) };
-        let (a, b) = (cancel(&self.num, &other.den), cancel(&other.num, &self.den));
+        let (a, b) = (self.num.cancel(&other.den), other.num.cancel(&self.den));
         let one = Poly::constant(1);
         let (c, d) = (b.as_ref().map_or(&self.den, |_| &one), a.as_ref().map_or(&other.den, |_| &one));
         Ratio::new(a.as_ref().unwrap_or(&self.num) * b.as_ref().unwrap_or(&other.num), c * d)
     }
 
     /// Returns `self` / `other`, or `None` if `other` is identically zero.
-    pub fn over(&self, other: &Self) -> Option<Self> {
+    pub fn checked_div(&self, other: &Self) -> Option<Self> {
         if other.is_zero() {
             return None;
         }
@@ -405,7 +413,7 @@ impl Ratio {
             return self.clone();
         }
         let (num, den) = (self.num.replace(pivot, by), self.den.replace(pivot, by));
-        num.over(&den).unwrap_or_else(|| self.clone())
+        num.checked_div(&den).unwrap_or_else(|| self.clone())
     }
 
     /// Returns `true` if a monomial occurs in the numerator or the denominator.
@@ -428,32 +436,32 @@ mod tests {
         let [u, v] = [0, 1].map(Poly::variable);
         let e = Poly::exponential(v.clone().into());
         for divisor in [&u + &v, &u + &e, &u * &v - Poly::constant(2)] {
-            assert_eq!((&divisor * &v).over(&divisor), Some(v.clone()));
-            assert_eq!((&divisor * &v + &e).over(&divisor), None);
+            assert_eq!((&divisor * &v).checked_div(&divisor), Some(v.clone()));
+            assert_eq!((&divisor * &v + &e).checked_div(&divisor), None);
             assert_eq!(divisor.common_monomial(), Monomial::one());
             assert_eq!((&divisor * &u * &v * &e).common_monomial(), Monomial::of(0).times(&Monomial::of(1)));
         }
-        assert_eq!(u.over(&Poly::zero()), None);
+        assert_eq!(u.checked_div(&Poly::zero()), None);
     }
 
     #[test]
     fn exponentials_of_a_single_term_move_to_the_numerator() {
         let [u, c, v] = [0, 1, 2].map(Poly::variable);
         let e = Poly::exponential(v.clone().into());
-        let quotient = Ratio::from(u.clone()).over(&(&c * &e).into()).unwrap();
+        let quotient = Ratio::from(u.clone()).checked_div(&(&c * &e).into()).unwrap();
         assert_eq!((quotient.num() * &e, quotient.den()), (u.clone(), &c));
         // With several terms they stay.
         let several = &c + &e;
-        let quotient = Ratio::from(u.clone()).over(&several.clone().into()).unwrap();
+        let quotient = Ratio::from(u.clone()).checked_div(&several.clone().into()).unwrap();
         assert_eq!((quotient.num(), quotient.den()), (&u, &several));
     }
 
     #[test]
     fn nothing_is_divided_by_zero() {
         let [u, v] = [0, 1].map(Poly::variable);
-        assert_eq!(Ratio::from(u.clone()).over(&Ratio::zero()), None);
+        assert_eq!(Ratio::from(u.clone()).checked_div(&Ratio::zero()), None);
         // Where u is v the quotient 1/(u − v) has no value, so it stays.
-        let quotient = Ratio::from(Poly::constant(1)).over(&(u - &v).into()).unwrap();
+        let quotient = Ratio::from(Poly::constant(1)).checked_div(&(u - &v).into()).unwrap();
         assert_eq!(quotient.replace(&Monomial::of(0), &v.into()), quotient);
     }
 

@@ -21,7 +21,7 @@ pub struct Assumption {
 impl Assumption {
     /// Returns the quantity that a slack variable replaces.
     pub fn slack_value(&self) -> Ratio {
-        let quotient = self.divisor.as_ref().and_then(|by| self.value.over(by));
+        let quotient = self.divisor.as_ref().and_then(|by| self.value.checked_div(by));
         quotient.unwrap_or_else(|| self.value.clone())
     }
 }

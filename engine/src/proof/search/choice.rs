@@ -7,7 +7,6 @@ use super::sign::{Certificate, SignEnv};
 use crate::formula::Hypothesis;
 use crate::proof::check::Sign;
 use oorandom::Rand32;
-use std::iter;
 
 /// Maximum nesting of certificates.
 const MAX_CERTIFICATE_DEPTH: u32 = 3;
@@ -36,21 +35,30 @@ pub fn sign(of: &Poly, known: &SignEnv) -> Option<Certificate> {
 ///
 /// Rule 4 is not tried if there are symbols between −1 and 1.
 pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &SignEnv) -> Option<Certificate> {
-    let whole = || {
-        if of.variables().into_iter().any(|x| known.is_unit(x)) {
-            return by_ends(of, known, MAX_ENDS).or_else(|| small_square(of, known));
-        }
-        // Shorter certificates are preferred.
-        (1..=MAX_CERTIFICATE_DEPTH).find_map(|depth| within(of, known, depth))
-    };
+    if let Some(certificate) = by_terms(of, known) {
+        return Some(certificate);
+    }
+    if has_both_signs(of, known) {
+        return None;
+    }
+    by_all_rules(of, known).or_else(|| by_factors(of, factors, known))
+}
+
+fn by_all_rules(of: &Poly, known: &SignEnv) -> Option<Certificate> {
+    if of.variables().into_iter().any(|x| known.is_unit(x)) {
+        return by_ends(of, known, MAX_ENDS).or_else(|| unit_square(of, known));
+    }
+    // Shorter certificates are preferred.
+    (1..=MAX_CERTIFICATE_DEPTH).find_map(|depth| within(of, known, depth))
+}
+
+/// Applies rule 2 to one of the factors and the remaining factor, to which it applies any rule.
+fn by_factors(of: &Poly, factors: &[Certificate], known: &SignEnv) -> Option<Certificate> {
     // Each set of factors is divided out once, not in each order.
-    let product = |(first, factor): (usize, &Certificate)| {
-        let rest = of.over(factor.of()).filter(|_| factor.of().terms().len() > 1)?;
+    factors.iter().enumerate().find_map(|(first, factor)| {
+        let rest = of.checked_div(factor.of()).filter(|_| factor.of().terms().len() > 1)?;
         Some(Certificate::product(of, factor.clone(), sign_of_product(&rest, &factors[first..], known)?))
-    };
-    let search = || whole().or_else(|| factors.iter().enumerate().find_map(product));
-    let by_terms = by_terms(of, known);
-    by_terms.or_else(|| if has_both_signs(of, known) { None } else { search() })
+    })
 }
 
 /// Number of points from which [`has_both_signs`] starts.
@@ -64,42 +72,68 @@ fn has_both_signs(of: &Poly, known: &SignEnv) -> bool {
         return false;
     }
     let mut random = Rand32::new(1);
-    let mut number = |x: &usize| {
-        let size = if known.is_unit(*x) { 1.0 } else { 2.0_f64.powi(random.rand_range(0..13) as i32 - 6) };
-        let sign = known.get(*x).filter(|_| !known.is_unit(*x));
-        let is_negative = sign.map_or(random.rand_range(0..2) == 0, |sign| sign.implies(Sign::NonPositive));
-        if is_negative { -size } else { size }
-    };
-    let variables = of.variables();
-    let index = |x: usize| variables.binary_search(&x).unwrap_or_default();
-    let powers = |m: &Monomial| m.powers().map(|(x, n)| (index(x), i32::from(n))).collect::<Vec<_>>();
-    let terms: Vec<_> = of.terms().map(|(m, q)| (q.to_f64(), powers(m))).collect();
-    // Returns the sign, unless the value is within the rounding error, and the slopes times the symbols.
-    let evaluate = |point: &[f64]| {
+    let of = FloatPoly::new(of);
+    let mut first = None;
+    for _ in 0..POINTS {
+        let point: Vec<f64> = of.variables.iter().map(|x| random_value(&mut random, *x, known)).collect();
+        let (sign, slopes) = of.sign_and_slopes(&point);
+        let ends = [-1.0, 1.0].into_iter().map(|direction| of.unit_ends(&point, &slopes, direction, known));
+        let signs_at_ends = ends.filter_map(|end| of.sign_and_slopes(&end).0);
+        for sign in sign.into_iter().chain(signs_at_ends) {
+            if *first.get_or_insert(sign) != sign {
+                return true;
+            }
+        }
+    }
+    false
+}
+
+/// Returns a random value of a symbol that agrees with what is known of it.
+fn random_value(random: &mut Rand32, x: usize, known: &SignEnv) -> f64 {
+    let size = if known.is_unit(x) { 1.0 } else { 2.0_f64.powi(random.rand_range(0..13) as i32 - 6) };
+    let sign = known.get(x).filter(|_| !known.is_unit(x));
+    let is_negative = sign.map_or(random.rand_range(0..2) == 0, |sign| sign.implies(Sign::NonPositive));
+    if is_negative { -size } else { size }
+}
+
+/// A polynomial with floats as coefficients. A point has a value for each of its variables.
+struct FloatPoly {
+    variables: Vec<usize>,
+    /// The coefficients, with the powers of variables by their indices.
+    terms: Vec<(f64, Vec<(usize, i32)>)>,
+}
+
+impl FloatPoly {
+    fn new(of: &Poly) -> Self {
+        let variables = of.variables();
+        let terms = of.terms().map(|(m, q)| {
+            let powers = m.powers().map(|(x, n)| (variables.binary_search(&x).unwrap_or_default(), n.into()));
+            (q.to_f64(), powers.collect())
+        });
+        FloatPoly { terms: terms.collect(), variables }
+    }
+
+    /// Returns whether the value is positive, unless it is within the rounding error, and the slopes times the
+    /// values of the variables.
+    fn sign_and_slopes(&self, point: &[f64]) -> (Option<bool>, Vec<f64>) {
         let (mut sum, mut sizes, mut slopes) = (0.0, 0.0, vec![0.0; point.len()]);
-        for (q, powers) in &terms {
+        for (q, powers) in &self.terms {
             let value = powers.iter().fold(*q, |x, (i, n)| x * point[*i].powi(*n));
             sum += value;
             sizes += value.abs();
             powers.iter().for_each(|(i, n)| slopes[*i] += f64::from(*n) * value);
         }
         ((sum.abs() > 1e-9 * sizes).then_some(sum > 0.0), slopes)
-    };
-    let mut signs = (0..POINTS).flat_map(|_| {
-        let point: Vec<f64> = variables.iter().map(&mut number).collect();
-        let (sign, slopes) = evaluate(&point);
-        let (variables, evaluate) = (&variables, &evaluate);
-        let at_ends = move |direction: f64| {
-            let end = |i: usize| match known.is_unit(variables[i]) {
-                true => (direction * point[i] * slopes[i]).signum(),
-                false => point[i],
-            };
-            evaluate(&(0..point.len()).map(end).collect::<Vec<_>>()).0
-        };
-        iter::once(sign).chain([-1.0, 1.0].into_iter().map(at_ends)).flatten()
-    });
-    let first = signs.next();
-    signs.any(|sign| Some(sign) != first)
+    }
+
+    /// Moves the symbols between −1 and 1 in the direction of the slopes, or in the opposite one, to the ends.
+    fn unit_ends(&self, point: &[f64], slopes: &[f64], direction: f64, known: &SignEnv) -> Vec<f64> {
+        let ends = (0..point.len()).map(|i| match known.is_unit(self.variables[i]) {
+            true => (direction * point[i] * slopes[i]).signum(),
+            false => point[i],
+        });
+        ends.collect()
+    }
 }
 
 fn within(of: &Poly, known: &SignEnv, depth: u32) -> Option<Certificate> {
@@ -107,11 +141,16 @@ fn within(of: &Poly, known: &SignEnv, depth: u32) -> Option<Certificate> {
         return Some(certificate);
     }
     let depth = depth.checked_sub(1)?;
-    let find = |of: &Poly, known: &SignEnv| within(of, known, depth);
     factor(of, known, depth)
-        .or_else(|| of.variables().into_iter().find_map(|x| Certificate::square(of, x, known, &find)))
+        .or_else(|| square(of, known, depth))
         .or_else(|| slope(of, known, depth))
         .or_else(|| exponential_factor(of, known, depth))
+}
+
+/// Applies rule 3 to any symbol.
+fn square(of: &Poly, known: &SignEnv, depth: u32) -> Option<Certificate> {
+    let mut variables = of.variables().into_iter();
+    variables.find_map(|x| Certificate::square(of, x, known, &|of, known| within(of, known, depth)))
 }
 
 /// Applies rule 2 to a product of powers and the remaining factor.
@@ -121,7 +160,7 @@ fn factor(of: &Poly, known: &SignEnv, depth: u32) -> Option<Certificate> {
         return None;
     }
     let factor = Poly::from(common);
-    let rest = within(&of.over(&factor)?, known, depth)?;
+    let rest = within(&of.checked_div(&factor)?, known, depth)?;
     Some(Certificate::product(of, Certificate::termwise(&factor, known)?, rest))
 }
 
@@ -139,8 +178,8 @@ fn slope(of: &Poly, known: &SignEnv, depth: u32) -> Option<Certificate> {
     if !of.has_exponentials() || of.terms().len() > MAX_SLOPE_TERMS {
         return None;
     }
-    let find = |of: &Poly, known: &SignEnv| within(of, known, depth);
-    of.variables().into_iter().find_map(|x| Certificate::mean_value(of, x, known, &find))
+    let mut variables = of.variables().into_iter();
+    variables.find_map(|x| Certificate::mean_value(of, x, known, &|of, known| within(of, known, depth)))
 }
 
 /// Returns the sign by rules 1 and 5.
@@ -155,95 +194,131 @@ fn bounded(of: &Poly, known: &SignEnv, symbols: u32) -> Option<Certificate> {
 
 /// Returns the sign by rules 2 and 6, and the other two inside these.
 fn by_ends(of: &Poly, known: &SignEnv, symbols: u32) -> Option<Certificate> {
-    small_factor(of, known, symbols).or_else(|| {
+    unit_factor(of, known, symbols).or_else(|| {
         let symbols = symbols.checked_sub(1)?;
         if of.terms().len() > MAX_ENDS_TERMS {
             return None;
         }
-        let is_in_exponent = |x: &usize| of.exponents().any(|e| e.variables().contains(x));
-        let small = of.variables().into_iter().filter(|x| known.is_unit(*x) && !is_in_exponent(x));
-        let degrees = small.map(|x| (of.degree(x), x)).filter(|(n, _)| *n <= MAX_ENDS_DEGREE);
+        let units = of.variables().into_iter().filter(|x| known.is_unit(*x) && !of.has_in_exponent(*x));
+        let degrees = units.map(|x| (of.degree(x), x)).filter(|(n, _)| *n <= MAX_ENDS_DEGREE);
         Certificate::endpoints(of, degrees.min()?.1, known, &|of, known| bounded(of, known, symbols))
     })
 }
 
 /// Applies rule 3 to a square in a symbol between −1 and 1.
-fn small_square(of: &Poly, known: &SignEnv) -> Option<Certificate> {
-    let small =
+fn unit_square(of: &Poly, known: &SignEnv) -> Option<Certificate> {
+    let mut units =
         of.variables().into_iter().filter(|x| known.is_unit(*x) && of.terms().len() <= MAX_SQUARE_TERMS);
-    let find = |of: &Poly, known: &SignEnv| bounded(of, known, MAX_ENDS);
-    small.into_iter().find_map(|x| Certificate::square(of, x, known, &find))
+    units.find_map(|x| Certificate::square(of, x, known, &|of, known| bounded(of, known, MAX_ENDS)))
 }
 
 /// Applies rule 2 to squares of symbols between −1 and 1 and the remaining factor.
-fn small_factor(of: &Poly, known: &SignEnv, symbols: u32) -> Option<Certificate> {
-    let common = of.common_monomial();
-    let small = common.only(|x| known.is_unit(x));
-    let factor = Certificate::termwise(&small.into(), known).filter(|factor| !factor.of().is_one())?;
-    Some(Certificate::product(of, factor.clone(), bounded(&of.over(factor.of())?, known, symbols)?))
+fn unit_factor(of: &Poly, known: &SignEnv, symbols: u32) -> Option<Certificate> {
+    let units = of.common_monomial().only(|x| known.is_unit(x));
+    let factor = Certificate::termwise(&units.into(), known).filter(|factor| !factor.of().is_one())?;
+    Some(Certificate::product(of, factor.clone(), bounded(&of.checked_div(factor.of())?, known, symbols)?))
 }
 
-/// Returns the monomial for which to solve `equation`: that `value` equals its slack variable, or 0.
-///
-/// The choice prefers a symbol of unknown sign whose coefficient is not 0, so that the symbol is eliminated;
-/// otherwise a product with few symbols of known sign, so that little information is lost; otherwise a
-/// symbol whose sign still follows after the substitution, as that of b does from b = a + s for b − a > 0.
-///
-/// If the equation contains rounding errors, the symbol for which the hypothesis is to be solved comes
-/// first, and products come last, because long expressions would replace them.
-pub fn pivot(
-    context: &Context,
-    given: Option<&Hypothesis>,
-    value: &Ratio,
-    equation: &Poly,
-    known: &SignEnv,
-) -> Option<Monomial> {
-    let solved = |x: usize| {
-        let pivot = Monomial::of(x);
-        let by = solve_for(&pivot, equation, known)?;
-        Some((equation.coefficient(x, 1).terms().len(), pivot, by))
-    };
-    let (variables, signs) = (value.num().variables(), &context.signs);
-    let has_errors = variables.iter().any(|x| known.is_unit(*x));
-    let comes_later = |x: usize| {
-        has_errors && given.is_none_or(|given| context.symbol(x) != Some(Symbol::Own(given.solved_for)))
-    };
-    let is_free = |x: &&usize| signs.get(**x).is_none() && !known.is_unit(**x);
-    let free = variables.iter().filter(is_free).filter_map(|x| Some((comes_later(*x), solved(*x)?)));
-    let free = free.min_by_key(|(later, (terms, ..))| (*later, *terms)).map(|(_, (_, pivot, _))| pivot);
-    let product = || {
-        let known_signs = |m: &Monomial| m.powers().filter(|(x, _)| signs.get(*x).is_some()).count();
-        let is_product = |m: &&Monomial| m.count() > 1 && !m.powers().any(|(x, _)| known.is_unit(x));
-        let products = value.num().terms().map(|(m, _)| m).filter(is_product);
-        products.min_by_key(|m| known_signs(m)).filter(|m| solve_for(m, equation, known).is_some()).cloned()
-    };
-    let signed = || {
-        variables.iter().find_map(|x| {
-            let (_, pivot, by) = solved(*x)?;
-            let sign = context.sign_under(context.reduce(&by), &[], known)?.sign();
-            sign.implies(signs.get(*x)?).then_some(pivot)
+/// The choice of the monomial for which to solve `equation`: that `value` equals its slack variable, or 0.
+pub struct PivotChoice<'a> {
+    pub context: &'a Context,
+    pub hypothesis: Option<&'a Hypothesis>,
+    pub value: &'a Ratio,
+    pub equation: &'a Poly,
+    /// The known signs, with that of the slack variable.
+    pub known: &'a SignEnv,
+}
+
+impl PivotChoice<'_> {
+    /// Returns the monomial.
+    ///
+    /// The choice prefers a symbol of unknown sign whose coefficient is not 0, so that the symbol is eliminated;
+    /// otherwise a product with few symbols of known sign, so that little information is lost; otherwise a
+    /// symbol whose sign still follows after the substitution, as that of b does from b = a + s for b − a > 0.
+    ///
+    /// If the equation contains rounding errors, the symbol for which the hypothesis is to be solved comes
+    /// first, and products come last, because long expressions would replace them.
+    pub fn pivot(&self) -> Option<Monomial> {
+        let variables = self.value.num().variables();
+        let has_errors = variables.iter().any(|x| self.known.is_unit(*x));
+        self.free_symbol(&variables, has_errors).or_else(|| match has_errors {
+            true => self.signed_symbol(&variables).or_else(|| self.product()),
+            false => self.product().or_else(|| self.signed_symbol(&variables)),
         })
-    };
-    free.or_else(|| if has_errors { signed().or_else(product) } else { product().or_else(signed) })
+    }
+
+    /// Returns the symbol of unknown sign with the shortest coefficient.
+    fn free_symbol(&self, variables: &[usize], has_errors: bool) -> Option<Monomial> {
+        let free =
+            variables.iter().filter(|x| self.sign_without_slack(**x).is_none() && !self.known.is_unit(**x));
+        let solvable = free.filter(|x| self.solve_for(&Monomial::of(**x)).is_some());
+        let first = solvable.min_by_key(|x| {
+            (has_errors && !self.is_solved_for(**x), self.equation.coefficient(**x, 1).terms().len())
+        });
+        first.map(|x| Monomial::of(*x))
+    }
+
+    /// Returns the product with the fewest symbols of known sign.
+    fn product(&self) -> Option<Monomial> {
+        let products = self
+            .value
+            .num()
+            .terms()
+            .map(|(m, _)| m)
+            .filter(|m| m.count() > 1 && !m.powers().any(|(x, _)| self.known.is_unit(x)));
+        let first = products
+            .min_by_key(|m| m.powers().filter(|(x, _)| self.sign_without_slack(*x).is_some()).count());
+        first.filter(|m| self.solve_for(m).is_some()).cloned()
+    }
+
+    /// Returns the first symbol whose sign follows from that of its value.
+    fn signed_symbol(&self, variables: &[usize]) -> Option<Monomial> {
+        variables.iter().find_map(|x| {
+            let pivot = Monomial::of(*x);
+            let by = self.context.reduce(&self.solve_for(&pivot)?);
+            let sign = self.context.sign_under(by, &[], self.known)?.sign();
+            sign.implies(self.sign_without_slack(*x)?).then_some(pivot)
+        })
+    }
+
+    fn solve_for(&self, pivot: &Monomial) -> Option<Ratio> {
+        solve_for(pivot, self.equation, self.known)
+    }
+
+    fn sign_without_slack(&self, x: usize) -> Option<Sign> {
+        self.context.signs.get(x)
+    }
+
+    /// Returns `true` if the hypothesis is to be solved for a symbol.
+    fn is_solved_for(&self, x: usize) -> bool {
+        let symbol = self.context.symbol(x);
+        self.hypothesis.is_some_and(|hypothesis| symbol == Some(Symbol::Own(hypothesis.solved_for)))
+    }
 }
 
 /// Returns the factors m for which a symbol cancels in `value` − m `other`: an error or interval parameter
 /// if both contain one.
 pub fn multipliers(value: &Ratio, other: &Ratio, known: &SignEnv) -> Vec<Ratio> {
-    let factor = |x: usize| {
-        let [[_, dividend], [_, divisor]] = [value.num().coefficients(x)?, other.num().coefficients(x)?];
-        Ratio::from(dividend).over(&divisor.into())
-    };
-    let scale = Ratio::from(other.den().clone()).over(&value.den().clone().into());
-    let cancelling = |of: Vec<usize>| -> Vec<Ratio> {
-        of.into_iter().filter_map(|x| Some(scale.as_ref()? * factor(x)?)).collect()
-    };
-    let (small, others): (Vec<_>, Vec<_>) =
+    let (units, others): (Vec<_>, Vec<_>) =
         other.num().variables().into_iter().partition(|x| known.is_unit(*x));
-    let small = cancelling(small);
-    let mut all = if small.is_empty() { cancelling(others) } else { small };
+    let mut all = cancelling_multipliers(value, other, &units);
+    if all.is_empty() {
+        all = cancelling_multipliers(value, other, &others);
+    }
     all.dedup();
     all
+}
+
+/// Returns the factor m for each of the symbols that can be cancelled.
+fn cancelling_multipliers(value: &Ratio, other: &Ratio, symbols: &[usize]) -> Vec<Ratio> {
+    let Some(scale) = Ratio::from(other.den().clone()).checked_div(&value.den().clone().into()) else {
+        return Vec::new();
+    };
+    let multipliers = symbols.iter().filter_map(|x| {
+        let [[_, dividend], [_, divisor]] = [value.num().coefficients(*x)?, other.num().coefficients(*x)?];
+        Some(&scale * Ratio::from(dividend).checked_div(&divisor.into())?)
+    });
+    multipliers.collect()
 }
 
 #[cfg(test)]
@@ -280,7 +355,7 @@ mod tests {
     }
 
     fn over(a: Poly, b: Poly) -> Ratio {
-        Ratio::from(a).over(&b.into()).unwrap()
+        Ratio::from(a).checked_div(&b.into()).unwrap()
     }
 
     fn found(of: Poly) -> Option<Sign> {

@@ -2,7 +2,7 @@
 
 use super::algebra::{FIRST_SLACK, Monomial, Poly, Ratio, VARIABLES};
 use super::assumption::{Assumption, AssumptionUse, Multiple, SignedRatio};
-use super::choice;
+use super::choice::{self, PivotChoice};
 use super::error::Symbol;
 use super::sign::{Certificate, SignEnv};
 use crate::formula::Hypothesis;
@@ -36,9 +36,9 @@ pub(in crate::proof) struct Context {
 impl Context {
     /// Creates a context whose only assumption is that powers of two are positive.
     pub(in crate::proof) fn new(problem: &Problem) -> Self {
-        let is_unit = |x: &usize| problem.table.is_unit(*x);
         let (assumptions, symbols, roundings, substitutions, retained) = Default::default();
-        let (signs, largest) = (SignEnv::new((0..FIRST_SLACK).filter(is_unit)), Poly::constant(1));
+        let units = (0..FIRST_SLACK).filter(|x| problem.table.is_unit(*x));
+        let (signs, largest) = (SignEnv::new(units), Poly::constant(1));
         let mut context =
             Context { assumptions, signs, symbols, roundings, substitutions, retained, largest };
         for (x, atom) in problem.table.atoms().iter().enumerate() {
@@ -68,8 +68,8 @@ impl Context {
 
     /// Returns the rounding errors in a polynomial.
     pub(super) fn errors(&self, of: &Poly) -> Vec<usize> {
-        let is_error = |x: &usize| matches!(self.symbol(*x), Some(Symbol::Error(_)));
-        of.variables().into_iter().filter(is_error).collect()
+        let variables = of.variables().into_iter();
+        variables.filter(|x| matches!(self.symbol(*x), Some(Symbol::Error(_)))).collect()
     }
 
     /// Returns a polynomial with the sign of a quotient whose denominator is positive: the numerator without
@@ -78,7 +78,7 @@ impl Context {
         let largest = self.inverse_gamma();
         self.errors(value.num()).into_iter().fold(value.num().clone(), |rest, error| {
             let nearest = &largest + Ratio::from(Poly::variable(error));
-            rest.over(nearest.num()).filter(|_| *nearest.den() == *largest.den()).unwrap_or(rest)
+            rest.checked_div(nearest.num()).filter(|_| *nearest.den() == *largest.den()).unwrap_or(rest)
         })
     }
 
@@ -130,19 +130,28 @@ impl Context {
         value: Ratio,
         factors: &[Certificate],
     ) -> Option<SignedRatio> {
-        let by = |h: &Ratio, sign: Sign, m: Ratio| {
-            let rest = self.sign(&value - &m * h, factors)?;
-            let factor = self.sign(m, factors)?;
-            let whole = factor.sign().times(sign).plus(rest.sign())?;
-            let less = Some(Multiple { factor, of: h.clone(), sum_sign: whole }.into());
-            Some(SignedRatio { subtracted: less, ..rest })
-        };
-        let mut retained = self.retained.iter().rev().map(|(h, sign)| (self.reduce(h), *sign));
         self.sign(value.clone(), factors).or_else(|| {
-            retained.find_map(|(h, sign)| {
-                choice::multipliers(&value, &h, &self.signs).into_iter().find_map(|m| by(&h, sign, m))
+            self.retained.iter().rev().find_map(|(h, sign)| {
+                let h = self.reduce(h);
+                let mut multipliers = choice::multipliers(&value, &h, &self.signs).into_iter();
+                multipliers.find_map(|m| self.sign_by_multiple(&value, (&h, *sign), m, factors))
             })
         })
+    }
+
+    /// Returns the sign of v by those of m h and of v − m h.
+    fn sign_by_multiple(
+        &self,
+        value: &Ratio,
+        (h, sign): (&Ratio, Sign),
+        m: Ratio,
+        factors: &[Certificate],
+    ) -> Option<SignedRatio> {
+        let rest = self.sign(value - &m * h, factors)?;
+        let factor = self.sign(m, factors)?;
+        let sum_sign = factor.sign().times(sign).plus(rest.sign())?;
+        let subtracted = Some(Multiple { factor, of: h.clone(), sum_sign }.into());
+        Some(SignedRatio { subtracted, ..rest })
     }
 
     /// Returns `true` if a symbol is not replaced, so that an interval may give it a value.
@@ -152,21 +161,28 @@ impl Context {
     }
 
     /// Adds the assumption that a quantity has a sign.
-    pub(in crate::proof) fn assume_sign(&mut self, given: Option<&Hypothesis>, value: Ratio, sign: Sign) {
+    pub(in crate::proof) fn assume_sign(
+        &mut self,
+        hypothesis: Option<&Hypothesis>,
+        value: Ratio,
+        sign: Sign,
+    ) {
         let value = self.reduce(&value);
-        let (given, mut divided_by) = (given.cloned(), None);
+        let (hypothesis, mut divided_by) = (hypothesis.cloned(), None);
         let used = match sign {
             _ if self.sign(value.clone(), &[]).is_some_and(|signed| signed.sign().implies(sign)) => {
                 AssumptionUse::Implied
             }
             Sign::Negative | Sign::NonPositive => {
-                return self.assume_sign(given.as_ref(), -value, sign.negated());
+                return self.assume_sign(hypothesis.as_ref(), -value, sign.negated());
             }
             Sign::Positive | Sign::NonNegative => {
                 if let Some(x) = as_variable(&value) {
                     self.signs.set(x, Some(sign));
                     AssumptionUse::Variable(x)
-                } else if let Some((divisor, (pivot, by), slack)) = self.solve(given.as_ref(), &value, sign) {
+                } else if let Some((divisor, (pivot, by), slack)) =
+                    self.solve(hypothesis.as_ref(), &value, sign)
+                {
                     divided_by = divisor;
                     self.symbols.extend(self.next_symbol(Symbol::Slack).map(|symbol| (slack, symbol)));
                     self.signs.set(slack, Some(sign));
@@ -177,77 +193,80 @@ impl Context {
                 }
             }
             Sign::Zero => self
-                .pivot(given.as_ref(), &value, &Poly::zero(), &self.signs)
+                .pivot(hypothesis.as_ref(), &value, &Poly::zero(), &self.signs)
                 .map_or(AssumptionUse::Unused, |(pivot, by)| AssumptionUse::Pivot(pivot, by, None)),
         };
         if let AssumptionUse::Pivot(pivot, by, _) = &used {
             self.replace(pivot.clone(), by.clone());
         }
-        self.assumptions.push(Assumption { hypothesis: given, value, divisor: divided_by, usage: used });
+        self.assumptions.push(Assumption { hypothesis, value, divisor: divided_by, usage: used });
     }
 
     /// Finds a pivot of a quantity, otherwise of its quotient by a positive symbol: 0 < k < 1 is
     /// k = 1/(1 + s) with s = (1 − k)/k > 0.
-    fn solve(&self, given: Option<&Hypothesis>, value: &Ratio, sign: Sign) -> Option<Solved> {
+    fn solve(&self, hypothesis: Option<&Hypothesis>, value: &Ratio, sign: Sign) -> Option<Solved> {
         let slack = self.next_slack()?;
         let known = self.signs.with(slack, sign);
-        let pivot = |value: &Ratio| self.pivot(given, value, &Poly::variable(slack), &known);
-        let quotient = |x: usize| {
+        let by = Poly::variable(slack);
+        if let Some(rule) = self.pivot(hypothesis, value, &by, &known) {
+            return Some((None, rule, slack));
+        }
+        value.num().variables().into_iter().find_map(|x| {
             let is_positive = self.signs.get(x) == Some(Sign::Positive);
             let divisor = is_positive.then(|| Ratio::from(Poly::variable(x)))?;
-            let rule = pivot(&value.over(&divisor)?)?;
+            let rule = self.pivot(hypothesis, &value.checked_div(&divisor)?, &by, &known)?;
             Some((Some(divisor), rule, slack))
-        };
-        let whole = pivot(value).map(|rule| (None, rule, slack));
-        whole.or_else(|| value.num().variables().into_iter().find_map(quotient))
+        })
     }
 
     /// Adds the assumption that a symbol lies in an interval, as the midpoint plus t times half the length,
-    /// for some t between −1 and 1, its place. A known sign of the symbol, which this does not imply, is retained.
+    /// for some t between −1 and 1, the interval parameter. A known sign of the symbol, which this does not
+    /// imply, is retained.
     pub(in crate::proof) fn assume_interval(
         &mut self,
-        given: &Hypothesis,
-        [x, place]: [usize; 2],
+        hypothesis: &Hypothesis,
+        [x, parameter]: [usize; 2],
         lower: &Ratio,
         upper: &Ratio,
     ) {
         let half = Ratio::from(Poly::constant((1, 2)));
         let [middle, reach] = [upper + lower, upper - lower].map(|sum| self.reduce(&(sum * &half)));
         let quantity = Ratio::from(Poly::variable(x));
-        let used = match self.next_symbol(Symbol::Place) {
+        let used = match self.next_symbol(Symbol::IntervalParameter) {
             Some(symbol)
                 if self.is_free(x) && !middle.variables().contains(&x) && !reach.variables().contains(&x) =>
             {
-                let by = &middle + reach * Ratio::from(Poly::variable(place));
+                let by = &middle + reach * Ratio::from(Poly::variable(parameter));
                 let sign = self.signs.set(x, None);
                 self.retained.extend(sign.map(|sign| (quantity.clone(), sign)));
                 self.replace(Monomial::of(x), by.clone());
-                self.symbols.insert(place, symbol);
-                AssumptionUse::Interval(x, by, place)
+                self.symbols.insert(parameter, symbol);
+                AssumptionUse::Interval(x, by, parameter)
             }
             _ => AssumptionUse::Unused,
         };
-        let hypothesis = Some(given.clone());
+        let hypothesis = Some(hypothesis.clone());
         self.assumptions.push(Assumption { hypothesis, value: quantity, divisor: None, usage: used });
     }
 
     /// Replaces a quantity x by t s, where s is its absolute value and −1 ≤ t ≤ 1, given the variables of s and
     /// t, and 2 x. Returns `false` if x cannot be replaced.
-    pub(in crate::proof) fn assume_size(&mut self, [size, place]: [usize; 2], twice: &Ratio) -> bool {
-        let is_size = |known: &&Assumption| matches!(known.usage, AssumptionUse::Size { .. });
-        if self.assumptions.iter().filter(is_size).count() == MAX_SIZES {
+    pub(in crate::proof) fn assume_size(&mut self, [size, factor]: [usize; 2], twice: &Ratio) -> bool {
+        let sizes = self.assumptions.iter().filter(|known| matches!(known.usage, AssumptionUse::Size { .. }));
+        if sizes.count() == MAX_SIZES {
             return false;
         }
-        let Some(symbols) = self.next_symbol(Symbol::Slack).zip(self.next_symbol(Symbol::Place)) else {
+        let Some(symbols) = self.next_symbol(Symbol::Slack).zip(self.next_symbol(Symbol::IntervalParameter))
+        else {
             return false;
         };
         let value = self.reduce(&(twice * Ratio::from(Poly::constant((1, 2)))));
         let known = self.signs.with(size, Sign::NonNegative);
-        let product = Poly::variable(size) * Poly::variable(place);
+        let product = Poly::variable(size) * Poly::variable(factor);
         let Some((pivot, by)) = self.pivot(None, &value, &product, &known) else { return false };
         self.signs = known;
         self.replace(pivot.clone(), by);
-        self.symbols.extend([(size, symbols.0), (place, symbols.1)]);
+        self.symbols.extend([(size, symbols.0), (factor, symbols.1)]);
         let usage = AssumptionUse::Size { pivot, size };
         let (hypothesis, divisor) = (None, None);
         self.assumptions.push(Assumption { hypothesis, value: value.clone(), divisor, usage });
@@ -270,8 +289,7 @@ impl Context {
 
     /// Returns the next symbol of a kind.
     fn next_symbol(&self, numbered: fn(u8) -> Symbol) -> Option<Symbol> {
-        let is_new = |symbol: &Symbol| self.symbols.values().all(|known| known != symbol);
-        (0..=u8::MAX).map(numbered).find(is_new)
+        (0..=u8::MAX).map(numbered).find(|symbol| self.symbols.values().all(|used| used != symbol))
     }
 
     /// Adds a substitution.
@@ -285,14 +303,14 @@ impl Context {
     /// Returns a monomial and its value where `value` equals a polynomial in new symbols.
     fn pivot(
         &self,
-        given: Option<&Hypothesis>,
+        hypothesis: Option<&Hypothesis>,
         value: &Ratio,
         replaced_by: &Poly,
         known: &SignEnv,
     ) -> Option<(Monomial, Ratio)> {
         // num − replaced_by · den = 0, and den is not 0.
         let equation = value.num() - replaced_by * value.den();
-        let pivot = choice::pivot(self, given, value, &equation, known)?;
+        let pivot = PivotChoice { context: self, hypothesis, value, equation: &equation, known }.pivot()?;
         let by = solve_for(&pivot, &equation, known)?;
         Some((pivot, by))
     }
@@ -304,7 +322,7 @@ pub(in crate::proof) fn solve_for(pivot: &Monomial, of: &Poly, known: &SignEnv) 
     let by = if let Some(x) = pivot.as_variable() {
         let [rest, coefficient] = of.coefficients(x)?;
         choice::sign(&coefficient, known).filter(|certificate| certificate.sign().is_strict())?;
-        Ratio::from(-rest).over(&coefficient.into())?
+        Ratio::from(-rest).checked_div(&coefficient.into())?
     } else {
         let (_, coefficient) = of.terms().find(|(m, _)| *m == pivot)?;
         let rest = of - Poly::from_iter([(pivot.clone(), coefficient.clone())]);

@@ -15,30 +15,33 @@ const MAX_POWER: u8 = 4;
 impl Knowledge<'_> {
     /// Returns a quantity of a derivation in own variables.
     pub fn own(&self, value: &Ratio) -> Ratio {
-        let replace = |value: Ratio, (slack, by): &(usize, Ratio)| value.replace(&Monomial::of(*slack), by);
-        self.slacks.iter().rev().fold(value.clone(), replace)
+        let slacks = self.slacks.iter().rev();
+        slacks.fold(value.clone(), |value, (slack, by)| value.replace(&Monomial::of(*slack), by))
     }
 
     /// Returns a polynomial of the checker, with exponentials as such.
     pub fn poly(&self, of: &Polynomial, state: &State) -> Poly {
-        let is_exponential =
-            |x: usize| matches!(self.problem.table.atoms().get(x), Some(Atom::Exponential(_)));
         let poly = opaque(of);
-        if of.has_only(|x| !is_exponential(x)) {
+        if of.has_only(|x| !self.is_exponential(x)) {
             return poly;
         }
-        let exponential = |(x, n): (usize, u8)| {
-            let exponent = state.exponent(x).map(|exponent| self.ratio(exponent, state));
-            let factor = exponent.map_or_else(|| Poly::variable(x), Poly::exponential);
-            (0..n).fold(Poly::constant(1), |power, _| power * &factor)
-        };
         let terms = poly.terms().flat_map(|(m, q)| {
-            let rest = Poly::from_iter([(m.only(|x| !is_exponential(x)), q.clone())]);
-            let exponentials = m.powers().filter(|(x, _)| is_exponential(*x));
-            let term = exponentials.fold(rest, |term, power| term * exponential(power));
+            let rest = Poly::from_iter([(m.only(|x| !self.is_exponential(x)), q.clone())]);
+            let exponentials = m.powers().filter(|(x, _)| self.is_exponential(*x));
+            let term = exponentials.fold(rest, |term, (x, n)| term * self.exponential_power(x, n, state));
             term.terms().map(|(m, q)| (m.clone(), q.clone())).collect::<Vec<_>>()
         });
         terms.collect()
+    }
+
+    fn is_exponential(&self, x: usize) -> bool {
+        matches!(self.problem.table.atoms().get(x), Some(Atom::Exponential(_)))
+    }
+
+    fn exponential_power(&self, x: usize, n: u8, state: &State) -> Poly {
+        let exponent = state.exponent(x).map(|exponent| self.ratio(exponent, state));
+        let factor = exponent.map_or_else(|| Poly::variable(x), Poly::exponential);
+        (0..n).fold(Poly::constant(1), |power, _| power * &factor)
     }
 
     /// Returns a quotient of the checker, without those factors of the denominator that divide the numerator.
@@ -46,12 +49,12 @@ impl Knowledge<'_> {
         let (mut num, mut den) = (self.poly(&of.num, state), Poly::constant(1));
         for (fact, _) in of.den.iter().filter_map(|i| state.facts.get(*i).ok()) {
             let factor = self.poly(fact, state);
-            match num.over(&factor) {
+            match num.checked_div(&factor) {
                 Some(quotient) => num = quotient,
                 None => den = den * factor,
             }
         }
-        Ratio::from(num).over(&den.into()).unwrap_or_else(Ratio::zero)
+        Ratio::from(num).checked_div(&den.into()).unwrap_or_else(Ratio::zero)
     }
 
     /// Returns a polynomial of the checker, reduced.
@@ -67,9 +70,8 @@ impl Knowledge<'_> {
     /// Returns a polynomial in own variables as one of the checker.
     pub fn polynomial(&self, of: &Poly, state: &State) -> Option<Polynomial> {
         let of = self.without_exponentials(of, state)?;
-        let term =
-            |(monomial, number): (&Monomial, &Number)| Some((monomial.to_powers()?, number.to_integer()?));
-        Polynomial::new(of.terms().map(term).collect::<Option<_>>()?).ok()
+        let terms = of.terms().map(|(monomial, number)| Some((monomial.to_powers()?, number.to_integer()?)));
+        Polynomial::new(terms.collect::<Option<_>>()?).ok()
     }
 
     /// Replaces each exponential by a power of a variable.
@@ -77,34 +79,34 @@ impl Knowledge<'_> {
         if !of.has_exponentials() {
             return Some(of.clone());
         }
-        let own = |(x, exponent): &(usize, Quotient)| (*x, self.ratio(exponent, state));
-        let own: Vec<_> = state.exponents.iter().map(own).collect();
-        let reduced: Vec<_> = own.iter().map(|(x, exponent)| (*x, self.context.reduce(exponent))).collect();
-        let term = |(monomial, number): (&Monomial, &Number)| {
+        let exponents: Vec<_> =
+            state.exponents.iter().map(|(x, exponent)| (*x, self.ratio(exponent, state))).collect();
+        let reduced: Vec<_> =
+            exponents.iter().map(|(x, exponent)| (*x, self.context.reduce(exponent))).collect();
+        let terms = of.terms().map(|(monomial, number)| {
             let mut rest = monomial.without_exponential();
             if let Some(exponent) = monomial.exponent() {
-                let (x, n) = [&own, &reduced].into_iter().find_map(|known| power_of(exponent, known))?;
+                let (x, n) = power_of(exponent, &exponents).or_else(|| power_of(exponent, &reduced))?;
                 rest = (0..n).fold(rest, |rest, _| rest.times(&Monomial::of(x)));
             }
             Some((rest, number.clone()))
-        };
-        of.terms().map(term).collect()
+        });
+        terms.collect()
     }
 }
 
 /// Returns a polynomial of the checker, whose exponentials remain variables.
 pub fn opaque(of: &Polynomial) -> Poly {
-    let term =
-        |(powers, number): &(_, i128)| (Monomial::from_powers(powers), Number::from(Rational::from(*number)));
-    of.terms().map(term).collect()
+    let terms = of.terms();
+    terms.map(|(powers, n)| (Monomial::from_powers(powers), Number::from(Rational::from(*n)))).collect()
 }
 
 /// Returns a variable and the power of its exponential that has this exponent.
 fn power_of(exponent: &Ratio, known: &[(usize, Ratio)]) -> Option<(usize, u8)> {
     (1..=MAX_POWER).find_map(|n| {
         let power = Ratio::from(Poly::constant(i32::from(n)));
-        let is_it = |known: &Ratio| (known * &power - exponent).is_zero();
-        known.iter().find(|(_, known)| is_it(known)).map(|(x, _)| (*x, n))
+        let base = known.iter().find(|(_, known)| (known * &power - exponent).is_zero());
+        base.map(|(x, _)| (*x, n))
     })
 }
 

@@ -3,7 +3,7 @@
 use super::algebra::{Monomial, Poly, Ratio};
 use super::assumption::AssumptionUse;
 use super::dictionary::{integral, opaque};
-use super::finder::{Finder, Found};
+use super::finder::{Finder, SearchResult};
 use crate::proof::check::{Atom, Certificate, Known, Polynomial};
 
 /// An equation v = 0, as a combination of quantities that are 0.
@@ -29,9 +29,11 @@ impl Equation {
     /// Returns the monomial for which it is solved: another symbol if the value contains it in place of the
     /// pivot.
     fn pivot(&self) -> &Monomial {
-        let is_simple = |m: &&Monomial| m.as_variable().is_some_and(|x| x < self.symbols);
-        let other = || self.value.terms().map(|(m, _)| m).find(is_simple);
-        if self.value.contains(&self.pivot) { &self.pivot } else { other().unwrap_or(&self.pivot) }
+        if self.value.contains(&self.pivot) {
+            return &self.pivot;
+        }
+        let mut monomials = self.value.terms().map(|(m, _)| m);
+        monomials.find(|m| m.as_variable().is_some_and(|x| x < self.symbols)).unwrap_or(&self.pivot)
     }
 
     /// Returns the coefficient of the pivot, and the rest of the equation.
@@ -55,26 +57,28 @@ impl Equation {
         {
             return Some(divided(of, x, &Poly::constant(number.recip()), &rest));
         }
-        let by = Ratio::from(-rest).over(&coefficient.clone().into())?;
+        let by = Ratio::from(-rest).checked_div(&coefficient.clone().into())?;
         let replaced = Ratio::from(of.clone()).replace(self.pivot(), &by);
-        let by_power = |power: Poly, rest: Poly| {
-            let multiple = (of * &power - &rest).over(&self.value)?;
-            Some(Eliminated { rest, power, multiple })
-        };
-        by_power(replaced.den().clone(), replaced.num().clone()).or_else(|| {
+        self.eliminated(of, replaced.den().clone(), replaced.num().clone()).or_else(|| {
             // A factor of the coefficient was cancelled in the value of the pivot.
             let degree = of.degree(self.pivot().as_variable()?);
             let power = (0..degree).fold(Poly::constant(1), |power, _| power * &coefficient);
             let rest = replaced * Ratio::from(power.clone());
-            rest.den().is_one().then(|| by_power(power, rest.num().clone()))?
+            rest.den().is_one().then(|| self.eliminated(of, power, rest.num().clone()))?
         })
+    }
+
+    /// Returns the result with this power and rest, if the multiple is a polynomial.
+    fn eliminated(&self, of: &Poly, power: Poly, rest: Poly) -> Option<Eliminated> {
+        let multiple = (of * &power - &rest).checked_div(&self.value)?;
+        Some(Eliminated { rest, power, multiple })
     }
 }
 
 /// Divides two forms by the product of powers that divides both.
 fn without_common_factor(left: Poly, right: Poly) -> (Poly, Poly) {
     let factor = Poly::from(left.common_monomial().common(&right.common_monomial()));
-    match (left.over(&factor), right.over(&factor)) {
+    match (left.checked_div(&factor), right.checked_div(&factor)) {
         (Some(left), Some(right)) if !right.is_zero() => (left, right),
         _ => (left, right),
     }
@@ -93,7 +97,7 @@ fn divided(of: &Poly, x: usize, inverse: &Poly, rest: &Poly) -> Eliminated {
 
 impl Finder<'_, '_> {
     /// Returns a certificate with l f = r, for forms l and r whose difference vanishes, maybe by equations.
-    pub fn equated(&mut self, of: &Polynomial, form: Ratio) -> Found<Certificate> {
+    pub fn equated(&mut self, of: &Polynomial, form: Ratio) -> SearchResult<Certificate> {
         let left = self.guide.without_exponentials(form.den(), self.state).ok_or("an exponential")?;
         let right = self.guide.without_exponentials(form.num(), self.state).ok_or("an exponential")?;
         let (left, right) = without_common_factor(left, right);
@@ -113,16 +117,16 @@ impl Finder<'_, '_> {
     }
 
     /// Returns the equations among the hypotheses and exponentials.
-    fn equations(&mut self) -> Found<Vec<Equation>> {
+    fn equations(&mut self) -> SearchResult<Vec<Equation>> {
         let guide = self.guide;
-        let is_symbol = |atom: &&Atom| matches!(atom, Atom::Own(_));
-        let symbols = guide.problem.table.atoms().iter().filter(is_symbol).count();
+        let atoms = guide.problem.table.atoms().iter();
+        let symbols = atoms.filter(|atom| matches!(atom, Atom::Own(_))).count();
         let mut equations = Vec::new();
         for (i, assumption) in guide.context.assumptions.iter().enumerate() {
             let (pivot, fact) = match &assumption.usage {
                 AssumptionUse::Pivot(pivot, _, None) => {
-                    let supposed = guide.supposed.get(i).and_then(Option::as_ref);
-                    (pivot, supposed.ok_or("an equation")?.fact)
+                    let assumed = guide.facts.get(i).and_then(Option::as_ref);
+                    (pivot, assumed.ok_or("an equation")?.fact)
                 }
                 AssumptionUse::Size { pivot, size } => {
                     // An absolute value may not have been met yet.
@@ -143,8 +147,8 @@ impl Finder<'_, '_> {
     /// Adds eᵃ eᵇ = eᶜ for a + b = c, where eᶜ may be 1.
     fn add_products_of_exponentials(&mut self, equations: &mut Vec<Equation>, symbols: usize) {
         let state = self.state;
-        let ratio = |(x, exponent): &(usize, _)| (*x, self.guide.ratio(exponent, state));
-        let exponents: Vec<(usize, Ratio)> = state.exponents.iter().map(ratio).collect();
+        let exponents: Vec<_> =
+            state.exponents.iter().map(|(x, exponent)| (*x, self.guide.ratio(exponent, state))).collect();
         for (i, (x, a)) in exponents.iter().enumerate() {
             for (y, b) in &exponents[i..] {
                 let sum = a + b;
@@ -162,7 +166,7 @@ impl Finder<'_, '_> {
 
     /// Returns a combination of quantities that are 0 which is `difference`. Multiplies the forms by what the
     /// difference has to be multiplied by.
-    fn vanishing(&mut self, mut difference: Poly, left: &mut Poly, right: &mut Poly) -> Found<Poly> {
+    fn vanishing(&mut self, mut difference: Poly, left: &mut Poly, right: &mut Poly) -> SearchResult<Poly> {
         let mut equations = self.equations()?;
         let mut found = Poly::zero();
         while !equations.is_empty() && !difference.is_zero() {
@@ -192,7 +196,7 @@ impl Finder<'_, '_> {
     }
 
     /// Returns a power of a coefficient as a quotient of forms.
-    fn form_of_power(&mut self, power: &Poly) -> Found<Ratio> {
+    fn form_of_power(&mut self, power: &Poly) -> SearchResult<Ratio> {
         let (rest, product) = self.without_largest_errors(power)?;
         let guide = self.guide;
         let reduced = guide.context.reduce(&rest.into());

@@ -51,7 +51,7 @@ pub enum Symbol {
     /// The value of a hypothesis, or an absolute value: s₁, s₂, ….
     Slack(u8),
     /// The parameter of a quantity in an interval: t₁, t₂, …, with −1 ≤ t ≤ 1.
-    Place(u8),
+    IntervalParameter(u8),
 }
 
 impl Symbol {
@@ -61,7 +61,7 @@ impl Symbol {
             Symbol::Own(name) => name,
             Symbol::Error(index) => subscripted('e', index),
             Symbol::Slack(index) => subscripted('s', index),
-            Symbol::Place(index) => subscripted('t', index),
+            Symbol::IntervalParameter(index) => subscripted('t', index),
         }
     }
 }
@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn symbols_have_names() {
-        let all = [Symbol::Error(0), Symbol::Slack(11), Symbol::Place(u8::MAX), Symbol::Own("e")];
+        let all = [Symbol::Error(0), Symbol::Slack(11), Symbol::IntervalParameter(u8::MAX), Symbol::Own("e")];
         assert_eq!(all.map(Symbol::name), ["e₁", "s₁₂", "t₂₅₆", "e"]);
     }
 }

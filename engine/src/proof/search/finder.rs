@@ -5,13 +5,14 @@ use super::algebra::{Monomial, Poly, Ratio};
 use super::assumption::{AssumptionUse, SignedRatio};
 use super::dictionary::opaque;
 use super::error::Symbol;
-use super::knowledge::{Knowledge, Supposed};
+use super::knowledge::{AssumedFact, Knowledge};
 use crate::proof::check::{Certificate, Known, MAX_VARIABLES, Polynomial, Sign, State};
 
 /// Maximum nesting of lemmas.
 const MAX_DEPTH: u32 = 4;
 
-pub type Found<T> = Result<T, Failure>;
+/// The result of a part of a search.
+pub type SearchResult<T> = Result<T, Failure>;
 
 /// A search for one certificate.
 pub struct Finder<'a, 'p> {
@@ -34,7 +35,7 @@ impl<'a, 'p> Finder<'a, 'p> {
         den: &[usize],
         signed: &SignedRatio,
         state: &'a State<'p>,
-    ) -> Found<Certificate> {
+    ) -> SearchResult<Certificate> {
         Finder::new(guide, state, 0).certificate(of, den, signed)
     }
 
@@ -46,9 +47,9 @@ impl<'a, 'p> Finder<'a, 'p> {
                 continue;
             }
             let fact = guide.poly(fact, state);
-            let (quotient, is_multiple) = match value.over(&fact) {
+            let (quotient, is_multiple) = match value.checked_div(&fact) {
                 Some(quotient) => (quotient, true),
-                None => match fact.over(&value) {
+                None => match fact.checked_div(&value) {
                     Some(quotient) => (quotient, false),
                     None => continue,
                 },
@@ -58,8 +59,11 @@ impl<'a, 'p> Finder<'a, 'p> {
             let mut finder = Finder::new(guide, state, 0);
             let found = finder.form(&signed, &[]).and_then(|form| finder.without_slacks(form));
             let (Ok(form), symbol) = (found, finder.fact(i)) else { continue };
-            let form =
-                if is_multiple { Some(form * Ratio::from(symbol)) } else { Ratio::from(symbol).over(&form) };
+            let form = if is_multiple {
+                Some(form * Ratio::from(symbol))
+            } else {
+                Ratio::from(symbol).checked_div(&form)
+            };
             if let Ok(found) = finder.equated(of, form?)
                 && state.certify(of, &found).is_ok()
             {
@@ -72,8 +76,8 @@ impl<'a, 'p> Finder<'a, 'p> {
     /// Returns the variable of a quantity, which becomes part of the certificate. If there are too many, the
     /// checker refuses it.
     pub fn quantity(&mut self, known: Known) -> Poly {
-        let place = self.quantities.iter().position(|other| *other == known);
-        let i = place.unwrap_or_else(|| {
+        let index = self.quantities.iter().position(|other| *other == known);
+        let i = index.unwrap_or_else(|| {
             self.quantities.push(known);
             self.quantities.len() - 1
         });
@@ -90,7 +94,7 @@ impl<'a, 'p> Finder<'a, 'p> {
     }
 
     /// Returns the polynomial of a lemma about a value in own symbols.
-    pub fn lemma(&mut self, value: &Poly) -> Found<Poly> {
+    pub fn lemma(&mut self, value: &Poly) -> SearchResult<Poly> {
         if self.depth >= MAX_DEPTH {
             return Err("too deep".into());
         }
@@ -102,47 +106,49 @@ impl<'a, 'p> Finder<'a, 'p> {
         Ok(self.quantity(Known::Lemma((of, certificate).into())))
     }
 
-    fn certificate(&mut self, of: &Polynomial, den: &[usize], signed: &SignedRatio) -> Found<Certificate> {
+    fn certificate(
+        &mut self,
+        of: &Polynomial,
+        den: &[usize],
+        signed: &SignedRatio,
+    ) -> SearchResult<Certificate> {
         let form = self.form(signed, den)?;
         let form = self.without_slacks(form)?;
         self.equated(of, form)
     }
 
     /// Returns the certificate for l and r in own symbols and quantities, with integers as coefficients.
-    pub fn finished(&self, left: &Poly, right: &Poly) -> Found<Certificate> {
-        let form = |of: &Poly| self.guide.polynomial(of, self.state).ok_or("a form");
-        Ok(Certificate { known: self.quantities.clone(), left: form(left)?, right: form(right)? })
+    pub fn finished(&self, left: &Poly, right: &Poly) -> SearchResult<Certificate> {
+        let [left, right] = [left, right].map(|of| self.guide.polynomial(of, self.state).ok_or("a form"));
+        Ok(Certificate { known: self.quantities.clone(), left: left?, right: right? })
     }
 
     /// Returns the quantity of an assumption as a quotient of facts.
-    pub fn supposed(&mut self, Supposed { fact, den, scale }: &Supposed) -> Found<Ratio> {
+    pub fn assumed(&mut self, AssumedFact { fact, den, scale }: &AssumedFact) -> SearchResult<Ratio> {
         let mut value = scale * Ratio::from(self.fact(*fact));
         for i in den {
-            value = value.over(&self.fact(*i).into()).ok_or("a zero fact")?;
+            value = value.checked_div(&self.fact(*i).into()).ok_or("a zero fact")?;
         }
         Ok(value)
     }
 
     /// Replaces slack variables by facts.
-    pub fn without_slacks(&mut self, mut form: Ratio) -> Found<Ratio> {
+    pub fn without_slacks(&mut self, mut form: Ratio) -> SearchResult<Ratio> {
         let guide = self.guide;
         for (i, assumption) in guide.context.assumptions.iter().enumerate().rev() {
             let (AssumptionUse::Pivot(_, _, Some(x)) | AssumptionUse::Variable(x)) = &assumption.usage else {
                 continue;
             };
             let pivot = Monomial::of(*x);
-            let Some(supposed) =
-                guide.supposed.get(i).and_then(Option::as_ref).filter(|_| form.contains(&pivot))
-            else {
-                continue;
-            };
-            let is_variable = self.state.facts.get(supposed.fact)?.0.as_variable().is_some();
+            let assumed = guide.facts.get(i).and_then(Option::as_ref);
+            let Some(assumed) = assumed.filter(|_| form.contains(&pivot)) else { continue };
+            let is_variable = self.state.facts.get(assumed.fact)?.0.as_variable().is_some();
             if is_variable && matches!(guide.context.symbol(*x), Some(Symbol::Own(_))) {
                 continue;
             }
-            let mut by = self.supposed(supposed)?;
+            let mut by = self.assumed(assumed)?;
             if let Some(divisor) = &assumption.divisor {
-                by = by.over(divisor).ok_or("a zero divisor")?;
+                by = by.checked_div(divisor).ok_or("a zero divisor")?;
             }
             form = form.replace(&pivot, &by);
         }

@@ -5,7 +5,7 @@ use super::algebra::{FIRST_SLACK, Poly, Ratio};
 use super::assumption::SignedRatio;
 use super::choice;
 use super::dictionary::{integral, opaque};
-use super::finder::{Finder, Found};
+use super::finder::{Finder, SearchResult};
 use super::sign::{Certificate, Rule};
 use crate::formula::Relation;
 use crate::proof;
@@ -16,7 +16,7 @@ type Forms = (Poly, Poly);
 
 impl Finder<'_, '_> {
     /// Returns the product of a quotient and facts, as a quotient of forms.
-    pub fn form(&mut self, signed: &SignedRatio, facts: &[usize]) -> Found<Ratio> {
+    pub fn form(&mut self, signed: &SignedRatio, facts: &[usize]) -> SearchResult<Ratio> {
         let (left, right) = self.forms(&signed.num)?;
         let (den, rest) = self.cancelled(signed.den.of(), facts);
         let (left_of_den, right_of_den) = match self.by_largest_errors(&den) {
@@ -27,14 +27,14 @@ impl Finder<'_, '_> {
                 self.forms(&den.ok_or("the sign of a denominator")?)?
             }
         };
-        let form = Ratio::from(right * left_of_den).over(&(right_of_den * left).into());
+        let form = Ratio::from(right * left_of_den).checked_div(&(right_of_den * left).into());
         let mut form = form.ok_or("a zero denominator")?;
         for i in rest {
             form = form * Ratio::from(self.fact(i));
         }
         let Some(multiple) = &signed.subtracted else { return Ok(form) };
-        let supposed = self.guide.retained(&multiple.of).ok_or("a retained quantity")?;
-        Ok(self.form(&multiple.factor, facts)? * self.supposed(supposed)? + form)
+        let retained = self.guide.retained(&multiple.of).ok_or("a retained quantity")?;
+        Ok(self.form(&multiple.factor, facts)? * self.assumed(retained)? + form)
     }
 
     /// Divides a denominator by those of the facts that divide it. Returns the rest of it, and of the facts.
@@ -43,7 +43,7 @@ impl Finder<'_, '_> {
         for i in facts {
             let fact = self.state.facts.get(*i).map(|(of, _)| self.guide.reduced(of, self.state));
             let quotient = fact.ok().filter(|fact| fact.den().is_one() && !fact.is_zero());
-            match quotient.and_then(|fact| den.over(fact.num())) {
+            match quotient.and_then(|fact| den.checked_div(fact.num())) {
                 Some(quotient) => den = quotient,
                 None => rest.push(*i),
             }
@@ -68,10 +68,10 @@ impl Finder<'_, '_> {
 
     /// Divides a value in own symbols by its factors 2ᵖ + 1 + e. Returns the rest, and the product of lemmas
     /// about them.
-    pub fn without_largest_errors(&mut self, of: &Poly) -> Found<(Poly, Poly)> {
+    pub fn without_largest_errors(&mut self, of: &Poly) -> SearchResult<(Poly, Poly)> {
         let (mut rest, mut product) = (of.clone(), Poly::constant(1));
         for factor in self.guide.largest_errors(of) {
-            while let Some(quotient) = rest.over(&factor) {
+            while let Some(quotient) = rest.checked_div(&factor) {
                 rest = quotient;
                 product = product * self.lemma(&factor)?;
             }
@@ -79,7 +79,7 @@ impl Finder<'_, '_> {
         Ok((rest, product))
     }
 
-    fn forms(&mut self, of: &Certificate) -> Found<Forms> {
+    fn forms(&mut self, of: &Certificate) -> SearchResult<Forms> {
         match of.rule() {
             Rule::Terms => Ok((Poly::constant(1), of.of().clone())),
             Rule::Product(factor, rest) => {
@@ -94,12 +94,12 @@ impl Finder<'_, '_> {
     }
 
     /// Returns 4 a f = r² + d.
-    fn square(&mut self, leading: &Certificate, root: &Poly, rest: &Certificate) -> Found<Forms> {
+    fn square(&mut self, leading: &Certificate, root: &Poly, rest: &Certificate) -> SearchResult<Forms> {
         let (left_of_leading, leading) = self.forms(leading)?;
         let (left_of_rest, rest) = self.forms(rest)?;
         let own = self.guide.own(&root.clone().into());
         let (value, _) = integral(own.num(), own.num());
-        let scale = own.over(&value.clone().into()).ok_or("a zero root")?;
+        let scale = own.checked_div(&value.clone().into()).ok_or("a zero root")?;
         if [scale.num(), scale.den()].into_iter().any(|part| part.terms().len() != 1) {
             return Err("the scale of a root".into());
         }
@@ -112,15 +112,15 @@ impl Finder<'_, '_> {
     }
 
     /// Returns 2ⁿ f = Σ bᵢ (1 + x)ⁱ (1 − x)ⁿ⁻ⁱ.
-    fn ends(&mut self, x: usize, at: &[Certificate]) -> Found<Forms> {
-        let forms: Vec<Forms> = at.iter().map(|end| self.forms(end)).collect::<Found<_>>()?;
+    fn ends(&mut self, x: usize, at: &[Certificate]) -> SearchResult<Forms> {
+        let forms: Vec<Forms> = at.iter().map(|end| self.forms(end)).collect::<SearchResult<_>>()?;
         let (one, x) = (Poly::constant(1), Poly::variable(x));
         let lower = self.bound(&(&one + &x))?;
         let upper = self.bound(&(&one - &x))?;
         let all = forms.iter().fold(one, |all, (left, _)| all * left);
         let mut sum = Poly::zero();
         for (i, (left, right)) in forms.iter().enumerate() {
-            let others = all.over(left).ok_or("a zero form")?;
+            let others = all.checked_div(left).ok_or("a zero form")?;
             sum = sum
                 + (1..at.len()).fold(right * others, |term, k| term * if k <= i { &lower } else { &upper });
         }
@@ -128,7 +128,7 @@ impl Finder<'_, '_> {
     }
 
     /// Returns a lemma about 1 + x or 1 − x, which is a form itself.
-    fn bound(&mut self, value: &Poly) -> Found<Poly> {
+    fn bound(&mut self, value: &Poly) -> SearchResult<Poly> {
         let of = self.guide.polynomial(value, self.state).ok_or("a unit")?;
         let (known, left, right) = (Vec::new(), Polynomial::constant(1), of.clone());
         let certificate = proof::check::Certificate { known, left, right };
@@ -136,7 +136,7 @@ impl Finder<'_, '_> {
     }
 
     /// Returns the forms of a function whose sign follows from that of its slope.
-    fn slope(&mut self, of: &Certificate, x: usize, signs: [Sign; 2]) -> Found<Forms> {
+    fn slope(&mut self, of: &Certificate, x: usize, signs: [Sign; 2]) -> SearchResult<Forms> {
         let own = self.guide.own(&of.of().clone().into());
         for i in 0..self.state.facts.iter().len() {
             let Some(scale) = self.scale(&own, i) else { continue };
@@ -152,8 +152,8 @@ impl Finder<'_, '_> {
         let of = self.guide.polynomial(&num, self.state).ok_or("a function that rises")?;
         let [start, slope] = signs.map(|sign| relation(if is_falling { sign.negated() } else { sign }));
         let (start, slope) = (start.ok_or("the sign of a start")?, slope.ok_or("the sign of a slope")?);
-        let none = || Node::Leaf(Leaf::default().into());
-        Err(Failure::Rise(Rise { of, x, start, slope, parts: [none(), none(), none()] }.into()))
+        let parts = [(); 3].map(|()| Node::Leaf(Leaf::default().into()));
+        Err(Failure::Rise(Rise { of, x, start, slope, parts }.into()))
     }
 
     /// Returns the quotient of a value and a fact if it is one of single terms.
@@ -170,9 +170,9 @@ impl Finder<'_, '_> {
             if &num * &b != &fact * &a {
                 return None;
             }
-            Ratio::from(a).over(&(b * own.den()).into())?
+            Ratio::from(a).checked_div(&(b * own.den()).into())?
         } else {
-            own.over(&fact.into())?
+            own.checked_div(&fact.into())?
         };
         let is_simple = [scale.num(), scale.den()].into_iter().all(|part| part.terms().len() == 1);
         is_simple.then_some(scale)

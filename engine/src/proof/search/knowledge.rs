@@ -1,7 +1,7 @@
 //! The knowledge of a search: assumptions with the facts of the checker.
 
 use super::algebra::{Monomial, Poly, Ratio};
-use super::assumption::{Assumption, AssumptionUse, SignedRatio};
+use super::assumption::{AssumptionUse, SignedRatio};
 use super::choice;
 use super::context::Context;
 use super::error::Quantity;
@@ -10,9 +10,9 @@ use crate::formula::Hypothesis;
 use crate::number::tree::Op;
 use crate::proof::check::{Atom, Problem, Refusal, Sign, State};
 
-/// A fact of the checker for an assumption: its quantity is `scale` times the fact over other facts.
+/// A fact of the checker for an assumption, whose quantity is `scale` times the fact divided by other facts.
 #[derive(Clone)]
-pub struct Supposed {
+pub struct AssumedFact {
     pub fact: usize,
     pub den: Vec<usize>,
     pub scale: Ratio,
@@ -26,7 +26,7 @@ pub struct Knowledge<'a> {
     /// The slack variables, with their values in own variables.
     pub slacks: Vec<(usize, Ratio)>,
     /// The fact of each assumption, except for those of intervals and absolute values.
-    pub supposed: Vec<Option<Supposed>>,
+    pub facts: Vec<Option<AssumedFact>>,
     /// The signs of factors of divisors.
     pub factors: Vec<Certificate>,
 }
@@ -34,8 +34,8 @@ pub struct Knowledge<'a> {
 impl<'a> Knowledge<'a> {
     /// Returns the knowledge before any assumption.
     pub fn new(problem: &'a Problem) -> Self {
-        let (slacks, supposed, factors) = Default::default();
-        Knowledge { problem, context: Context::new(problem), slacks, supposed, factors }
+        let (slacks, facts, factors) = Default::default();
+        Knowledge { problem, context: Context::new(problem), slacks, facts, factors }
     }
 
     /// Returns a quantity at which the search ends.
@@ -44,9 +44,9 @@ impl<'a> Knowledge<'a> {
     }
 
     /// Adds a hypothesis about the sign of this value.
-    pub fn assume(&mut self, hypothesis: &Hypothesis, value: Ratio, supposed: Supposed) {
+    pub fn assume(&mut self, hypothesis: &Hypothesis, value: Ratio, fact: AssumedFact) {
         self.context.assume_sign(Some(hypothesis), value, hypothesis.relation.into());
-        self.record(Some(supposed));
+        self.record(Some(fact));
     }
 
     /// Adds the hypothesis with this number, that a symbol is between two values.
@@ -56,27 +56,26 @@ impl<'a> Knowledge<'a> {
         x: &'static str,
         [lower, upper]: [Ratio; 2],
     ) -> Result<(), Refusal> {
-        let variable = |atom| self.problem.table.variable(atom);
-        let variables = [variable(Atom::Own(x))?, variable(Atom::Place(i))?];
+        let table = &self.problem.table;
+        let variables = [table.variable(Atom::Own(x))?, table.variable(Atom::IntervalParameter(i))?];
         self.context.assume_interval(self.problem.hypotheses[i], variables, &lower, &upper);
         self.record(None);
         Ok(())
     }
 
     /// Adds the assumption of a case.
-    pub fn assume_case(&mut self, deciding: &Poly, sign: Sign, supposed: Supposed) {
+    pub fn assume_case(&mut self, deciding: &Poly, sign: Sign, fact: AssumedFact) {
         self.context.assume_sign(None, deciding.clone().into(), sign);
-        self.record(Some(supposed));
+        self.record(Some(fact));
     }
 
     /// Replaces a formula by a multiple of its absolute value. Returns `false` if this is not possible.
     pub fn assume_size(&mut self, of: usize, twice: &Ratio) -> bool {
-        let variable = |atom| self.problem.table.variable(atom);
-        let (Ok(size), Ok(place)) = (variable(Atom::Size(of)), variable(Atom::Factor(of))) else {
-            return false;
-        };
+        let table = &self.problem.table;
+        let variables = (table.variable(Atom::Size(of)), table.variable(Atom::Factor(of)));
+        let (Ok(size), Ok(factor)) = variables else { return false };
         let mut context = self.context.clone();
-        if !context.assume_size([size, place], twice) {
+        if !context.assume_size([size, factor], twice) {
             return false;
         }
         self.context = context;
@@ -85,7 +84,7 @@ impl<'a> Knowledge<'a> {
     }
 
     /// Records the fact of the last assumption.
-    fn record(&mut self, supposed: Option<Supposed>) {
+    fn record(&mut self, fact: Option<AssumedFact>) {
         let Some(last) = self.context.assumptions.last() else { return };
         match &last.usage {
             AssumptionUse::Pivot(_, _, Some(slack)) => {
@@ -100,16 +99,16 @@ impl<'a> Knowledge<'a> {
             }
             _ => {}
         }
-        self.supposed.resize(self.context.assumptions.len() - 1, None);
-        self.supposed.push(supposed);
+        self.facts.resize(self.context.assumptions.len() - 1, None);
+        self.facts.push(fact);
     }
 
     /// Replaces the fact of a hypothesis, which is used again.
-    pub fn assume_again(&mut self, hypothesis: &Hypothesis, supposed: Supposed) {
-        let is_it = |given: &Option<Hypothesis>| given.as_ref() == Some(hypothesis);
-        let place = self.context.assumptions.iter().position(|own| is_it(&own.hypothesis));
-        if let Some(known) = place.and_then(|place| self.supposed.get_mut(place)) {
-            *known = Some(supposed);
+    pub fn assume_again(&mut self, hypothesis: &Hypothesis, fact: AssumedFact) {
+        let mut assumptions = self.context.assumptions.iter();
+        let index = assumptions.position(|assumption| assumption.hypothesis.as_ref() == Some(hypothesis));
+        if let Some(earlier) = index.and_then(|i| self.facts.get_mut(i)) {
+            *earlier = Some(fact);
         }
     }
 
@@ -135,23 +134,21 @@ impl<'a> Knowledge<'a> {
 
     /// Returns `true` if identities may rest on equations: of hypotheses, or of absolute values.
     pub fn has_equations(&self) -> bool {
-        let is_equation = |usage: &AssumptionUse| {
-            matches!(usage, AssumptionUse::Pivot(_, _, None) | AssumptionUse::Size { .. })
-        };
-        self.context.assumptions.iter().any(|own| is_equation(&own.usage))
+        self.context.assumptions.iter().any(|assumption| {
+            matches!(assumption.usage, AssumptionUse::Pivot(_, _, None) | AssumptionUse::Size { .. })
+        })
     }
 
     /// Returns the fact of a retained quantity.
-    pub fn retained(&self, of: &Ratio) -> Option<&Supposed> {
+    pub fn retained(&self, of: &Ratio) -> Option<&AssumedFact> {
         let mut retained = self.context.retained.iter();
-        let (kept, _) = retained.find(|(kept, _)| self.context.reduce(kept) == *of)?;
+        let (quantity, _) = retained.find(|(quantity, _)| self.context.reduce(quantity) == *of)?;
         // The quantity may also be a variable whose sign is known and that is in an interval.
-        let is_it = |own: &Assumption| match own.usage {
-            AssumptionUse::Retained => own.value == *kept,
-            AssumptionUse::Variable(x) => Ratio::from(Poly::variable(x)) == *kept,
+        let index = self.context.assumptions.iter().rposition(|assumption| match assumption.usage {
+            AssumptionUse::Retained => assumption.value == *quantity,
+            AssumptionUse::Variable(x) => Ratio::from(Poly::variable(x)) == *quantity,
             _ => false,
-        };
-        let place = self.context.assumptions.iter().rposition(is_it)?;
-        self.supposed.get(place)?.as_ref()
+        })?;
+        self.facts.get(index)?.as_ref()
     }
 }

@@ -94,7 +94,7 @@ impl Monomial {
     }
 
     /// Returns the quotient if the divisor divides `self` and has no e^….
-    pub fn over(&self, divisor: &Self) -> Option<Self> {
+    pub fn checked_div(&self, divisor: &Self) -> Option<Self> {
         if divisor.exponent.is_some() || !self.is_divisible_by(divisor) {
             return None;
         }

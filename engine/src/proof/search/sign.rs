@@ -126,8 +126,7 @@ impl Certificate {
     /// Applies rule 1.
     pub fn termwise(of: &Poly, known: &SignEnv) -> Option<Self> {
         let sign = of.terms().try_fold(Zero, |sum, (monomial, coefficient)| {
-            let number = if coefficient.sign().is_lt() { Negative } else { Positive };
-            sum.plus(number.times(of_monomial(monomial, known)?))
+            sum.plus(sign_of_number(coefficient).times(sign_of_monomial(monomial, known)?))
         });
         Some(Certificate { of: of.clone(), sign: sign?, rule: Rule::Terms })
     }
@@ -141,7 +140,7 @@ impl Certificate {
     /// Applies rule 3 to f = a x² + b x + d: 4 a f = (2 a x + b)² + (4 a d − b²).
     pub fn square(of: &Poly, x: usize, known: &SignEnv, find: SignSearch) -> Option<Self> {
         let [d, b, a] = of.coefficients(x)?;
-        if of.exponents().any(|e| e.variables().contains(&x)) {
+        if of.has_in_exponent(x) {
             return None;
         }
         let leading = find(&a, known).filter(|a| a.sign.is_strict())?;
@@ -169,40 +168,24 @@ impl Certificate {
 
     /// Applies rule 5.
     pub fn triangle_inequality(of: &Poly, known: &SignEnv) -> Option<Self> {
-        let has_small = |m: &Monomial| m.powers().any(|(x, _)| known.is_unit(x));
-        let (small, others): (Vec<_>, Vec<_>) = of.terms().partition(|(m, _)| has_small(m));
-        // The absolute value of a term without its factors between −1 and 1, and the sign of the term if
-        // these are squares. The remaining factors must have a known sign.
-        let size = |(m, q): (&Monomial, &Number)| {
-            let rest = m.only(|x| !known.is_unit(x));
-            let sign = of_monomial(&rest, known)?;
-            let size = if sign.implies(NonPositive) { -q.abs() } else { q.abs() };
-            let is_even = m.powers().all(|(x, n)| !known.is_unit(x) || n % 2 == 0);
-            let number = if q.sign().is_lt() { Negative } else { Positive };
-            Some(((rest, size), is_even.then(|| number.times(sign))))
-        };
-        let small: Vec<_> = small.into_iter().map(size).collect::<Option<_>>()?;
+        let (unit_terms, others): (Vec<_>, Vec<_>) =
+            of.terms().partition(|(m, _)| m.powers().any(|(x, _)| known.is_unit(x)));
+        let sizes = unit_terms.into_iter().map(|(m, q)| TermSize::new(m, q, known));
+        let sizes: Vec<_> = sizes.collect::<Option<_>>()?;
         let others: Poly = others.into_iter().map(|(m, q)| (m.clone(), q.clone())).collect();
-        // The difference of the polynomial and its bound has the sign `difference`.
-        let by_bound = |difference: Sign| {
-            let has_sign = |sign: &Option<Sign>| sign.is_some_and(|sign| sign.implies(difference));
-            let replaced = small.iter().filter(|(_, sign)| !has_sign(sign));
-            let sizes: Poly = replaced.map(|(size, _)| size.clone()).collect();
-            let bound = if difference == NonNegative { &others - &sizes } else { &others + &sizes };
-            let bound = Certificate::termwise(&bound, known)?;
+        [NonNegative, NonPositive].into_iter().find_map(|difference| {
+            let bound = Certificate::termwise(&bound(&others, &sizes, difference), known)?;
             let sign = bound.sign.plus(difference)?;
             Some(Certificate { of: of.clone(), sign, rule: Rule::Terms })
-        };
-        by_bound(NonNegative).or_else(|| by_bound(NonPositive))
+        })
     }
 
     /// Applies rule 6.
     pub fn endpoints(of: &Poly, x: usize, known: &SignEnv, find: SignSearch) -> Option<Self> {
-        if !known.is_unit(x) || of.exponents().any(|e| e.variables().contains(&x)) {
+        if !known.is_unit(x) || of.has_in_exponent(x) {
             return None;
         }
-        let sign = |coefficient: Poly| find(&coefficient, known);
-        let at: Vec<_> = bernstein(of, x).into_iter().map(sign).collect::<Option<_>>()?;
+        let at: Vec<_> = bernstein(of, x).iter().map(|of| find(of, known)).collect::<Option<_>>()?;
         // Strict signs come first. The products aⁱ (1 − a)ⁿ⁻ⁱ are not all 0, so they preserve them.
         let signs = [Positive, Negative, NonNegative, NonPositive];
         let sign = signs.into_iter().find(|sign| at.iter().all(|c| c.sign.implies(*sign)))?;
@@ -211,14 +194,44 @@ impl Certificate {
     }
 }
 
-fn of_monomial(monomial: &Monomial, known: &SignEnv) -> Option<Sign> {
-    let power = |(x, n): (usize, u8)| match known.get(x) {
-        Some(sign) if n % 2 == 1 => Some(sign),
-        Some(sign) => Some(sign.times(sign)),
-        None if n % 2 == 0 => Some(NonNegative),
+/// The size of a term with factors between −1 and 1.
+struct TermSize {
+    /// The absolute value of the term without these factors.
+    size: (Monomial, Number),
+    /// The sign of the term, if these factors are squares.
+    sign: Option<Sign>,
+}
+
+impl TermSize {
+    /// Returns the size if the remaining factors have a known sign.
+    fn new(m: &Monomial, q: &Number, known: &SignEnv) -> Option<Self> {
+        let rest = m.only(|x| !known.is_unit(x));
+        let sign = sign_of_monomial(&rest, known)?;
+        let size = if sign.implies(NonPositive) { -q.abs() } else { q.abs() };
+        let is_even = m.powers().all(|(x, n)| !known.is_unit(x) || n % 2 == 0);
+        Some(TermSize { size: (rest, size), sign: is_even.then(|| sign_of_number(q).times(sign)) })
+    }
+}
+
+/// Returns a bound of a sum of terms from which the sum differs by a quantity of the sign `difference`.
+fn bound(others: &Poly, sizes: &[TermSize], difference: Sign) -> Poly {
+    let replaced = sizes.iter().filter(|term| !term.sign.is_some_and(|sign| sign.implies(difference)));
+    let sizes: Poly = replaced.map(|term| term.size.clone()).collect();
+    if difference == NonNegative { others - &sizes } else { others + &sizes }
+}
+
+/// Returns the sign of a coefficient, which is not 0.
+fn sign_of_number(q: &Number) -> Sign {
+    if q.sign().is_lt() { Negative } else { Positive }
+}
+
+fn sign_of_monomial(monomial: &Monomial, known: &SignEnv) -> Option<Sign> {
+    monomial.powers().try_fold(Positive, |product, (x, n)| match known.get(x) {
+        Some(sign) if n % 2 == 1 => Some(product.times(sign)),
+        Some(sign) => Some(product.times(sign.times(sign))),
+        None if n % 2 == 0 => Some(product.times(NonNegative)),
         None => None,
-    };
-    monomial.powers().try_fold(Positive, |product, x| Some(product.times(power(x)?)))
+    })
 }
 
 /// Returns `true` if all exponents are quotients of polynomials whose denominators do not vanish.

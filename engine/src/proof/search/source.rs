@@ -6,7 +6,7 @@ use super::assumption::SignedRatio;
 use super::dictionary::opaque;
 use super::error::Symbol;
 use super::finder::Finder;
-use super::knowledge::{Knowledge, Supposed};
+use super::knowledge::{AssumedFact, Knowledge};
 use super::{Decision, Failure};
 use crate::formula::Relation;
 use crate::formula::claim::{PRECISION, SCALES};
@@ -34,8 +34,8 @@ pub struct Search<'a> {
     pub position: usize,
     /// The reason why the search ended.
     pub failure: Option<Failure>,
-    /// The last quantity whose sign was asked for.
-    pub asked: Option<Quotient>,
+    /// The last quantity whose sign was required.
+    pub required: Option<Quotient>,
 }
 
 impl Search<'_> {
@@ -61,8 +61,8 @@ impl Search<'_> {
         {
             return Ok(Reason::Certificate(found));
         }
-        let asked = Quotient { num: question.of.clone(), den: question.den.into() };
-        self.asked = Some(asked.clone());
+        let quotient = Quotient { num: question.of.clone(), den: question.den.into() };
+        self.required = Some(quotient.clone());
         // The polynomial itself is shorter than the sum, but its sign may be found by the other's alone.
         let direct = self.known.reduced(question.of, state);
         let signed = self.known.context.sign(direct.clone(), &self.known.factors);
@@ -76,11 +76,12 @@ impl Search<'_> {
         if let Some((i, _)) = fact {
             return Ok(Reason::Fact(i));
         }
-        let value = if question.den.is_empty() { direct } else { self.known.reduced_quotient(&asked, state) };
+        let value =
+            if question.den.is_empty() { direct } else { self.known.reduced_quotient(&quotient, state) };
         let signed = self.known.sign(value.clone());
-        let asks_for_zero =
+        let requires_zero =
             matches!(self.problem().proposition, Proposition::Equal(..) | Proposition::Derivative(..));
-        if asks_for_zero && !question.decides && question.is_sum && !value.is_zero() {
+        if requires_zero && !question.decides && question.is_sum && !value.is_zero() {
             return Err(ProofError::Unequal(self.known.quantity(value)).into());
         }
         let Some(signed) = signed else {
@@ -132,7 +133,7 @@ impl Search<'_> {
         candidates.extend(self.known.largest_errors(&rest));
         let mut factors = Vec::new();
         for factor in candidates {
-            while let Some(quotient) = rest.over(&factor).filter(is_integral) {
+            while let Some(quotient) = rest.checked_div(&factor).filter(is_integral) {
                 rest = quotient;
                 factors.push(factor.clone());
             }
@@ -181,7 +182,7 @@ impl Search<'_> {
             if !(&other - &*own).is_zero() {
                 continue;
             }
-            let factor = scale.over(&before).ok_or("a power of two")?;
+            let factor = scale.checked_div(&before).ok_or("a power of two")?;
             let [up, down] = [factor.num(), factor.den()].map(|of| self.known.polynomial(of, state));
             let (up, down) = (up.ok_or("a power of two")?, down.ok_or("a power of two")?);
             return Ok(Some(Same { rounding: i, up, down }));
@@ -192,19 +193,20 @@ impl Search<'_> {
     /// Returns `true` if the numerators of two quotients contain the same rounding errors.
     fn has_same_errors(&self, a: &Quotient, b: &Quotient) -> bool {
         let atoms = self.problem().table.atoms();
-        let is_free_of = |of: &Quotient, x: usize| of.num.has_only(|y| y != x);
-        let is_error = |x: &usize| matches!(atoms[*x], Atom::Error(_));
-        (0..atoms.len()).filter(is_error).all(|x| is_free_of(a, x) == is_free_of(b, x))
+        let mut errors = (0..atoms.len()).filter(|x| matches!(atoms[*x], Atom::Error(_)));
+        errors.all(|x| a.num.has_only(|y| y != x) == b.num.has_only(|y| y != x))
     }
 
     /// Splits a quotient into a factor without powers of two and a product of powers of two.
     fn without_scales(&self, value: &Ratio) -> (Ratio, Ratio) {
-        let context = &self.known.context;
-        let is_scale = |x| SCALES.iter().any(|scale| context.symbol(x) == Some(Symbol::Own(scale)));
-        let scales = |poly: &Poly| Poly::from(poly.common_monomial().only(is_scale));
-        let scale = Ratio::from(scales(value.num())).over(&scales(value.den()).into());
-        let scale = scale.unwrap_or_else(|| Poly::constant(1).into());
-        (value.over(&scale).unwrap_or_else(|| value.clone()), scale)
+        let [num, den] = [value.num(), value.den()].map(|part| {
+            let scales = part.common_monomial().only(
+                |x| matches!(self.known.context.symbol(x), Some(Symbol::Own(name)) if SCALES.contains(&name)),
+            );
+            Ratio::from(Poly::from(scales))
+        });
+        let scale = num.checked_div(&den).unwrap_or_else(|| Poly::constant(1).into());
+        (value.checked_div(&scale).unwrap_or_else(|| value.clone()), scale)
     }
 
     /// Returns the translation of the absolute value of a formula.
@@ -242,11 +244,11 @@ impl Search<'_> {
                 Decision::Case { at, deciding, scale, sign, .. } => {
                     cases += 1;
                     if *at == position {
-                        let negated = *sign == Sign::NonPositive;
-                        let scale = if negated { -scale } else { scale.clone() };
+                        let is_negated = *sign == Sign::NonPositive;
+                        let scale = if is_negated { -scale } else { scale.clone() };
                         // The first fact is 2 > 0.
-                        let supposed = Supposed { fact: cases, den: Vec::new(), scale };
-                        self.known.assume_case(deciding, *sign, supposed);
+                        let fact = AssumedFact { fact: cases, den: Vec::new(), scale };
+                        self.known.assume_case(deciding, *sign, fact);
                     }
                 }
                 Decision::Size { at, of, twice } if *at == position => {
@@ -268,9 +270,8 @@ impl Knowledge<'_> {
 
 /// Returns the number and sign of the fact about this polynomial, of a strict one if there is one.
 fn known_fact(of: &Polynomial, state: &State) -> Option<(usize, Sign)> {
-    let all = || state.facts.iter().enumerate().filter(|(_, (known, _))| known == of);
-    let definite = all().find(|(_, (_, sign))| is_definite(*sign));
-    definite.or_else(|| all().next()).map(|(i, (_, sign))| (i, *sign))
+    let facts = state.facts.iter().enumerate().filter(|(_, (known, _))| known == of);
+    facts.min_by_key(|(_, (_, sign))| !is_definite(*sign)).map(|(i, (_, sign))| (i, *sign))
 }
 
 /// Returns `true` if no other sign implies this one.

@@ -145,7 +145,7 @@ impl<'w, 'p> Writer<'w, 'p> {
     /// Returns the number of hypotheses up to the last interval in which a value lies.
     fn last_interval(&self, value: &Quotient) -> usize {
         let is_interval = |i: &usize| {
-            let Ok(x) = self.atom(Atom::Place(*i)) else { return false };
+            let Ok(x) = self.atom(Atom::IntervalParameter(*i)) else { return false };
             let mut factors = value.den.iter().filter_map(|i| self.state.facts.get(*i).ok());
             value.num.degree(x) > 0 || factors.any(|(of, _)| of.degree(x) > 0)
         };
@@ -170,7 +170,7 @@ impl<'w, 'p> Writer<'w, 'p> {
         while self.hypotheses < end {
             let i = self.leaf.hypotheses[self.hypotheses];
             if self.place.problem.hypotheses[i].interval().is_some() {
-                let x = self.atom(Atom::Place(i))?;
+                let x = self.atom(Atom::IntervalParameter(i))?;
                 self.equate(format!("F{x}"));
                 self.hypotheses += 1;
             } else {
@@ -199,8 +199,8 @@ impl<'w, 'p> Writer<'w, 'p> {
     /// Returns the proof of a fact that no certificate shows, if it is in scope.
     fn label(&mut self, i: usize) -> Result<Option<String>> {
         let state = self.state;
-        if let Some(place) = state.supposed.iter().position(|(_, fact)| *fact == i) {
-            let Some(hypothesis) = state.supposed[place].0 else {
+        if let Some(place) = state.assumed.iter().position(|(_, fact)| *fact == i) {
+            let Some(hypothesis) = state.assumed[place].0 else {
                 return Ok(Some(format!("C{}", place + 1)));
             };
             let rest = &self.leaf.hypotheses[self.hypotheses..];

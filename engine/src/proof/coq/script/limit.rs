@@ -113,7 +113,7 @@ impl Limit<'_> {
         let name = Expr::name(format!("s{}", table.atoms().len()));
         let degree = den.degree(self.x);
         let [above, below] = [&rest, &den].map(|part| self.reversed(part, degree, &name));
-        let g = format!("(fun {name} : R => {})", above?.over(below?));
+        let g = format!("(fun {name} : R => {})", above?.divided_by(below?));
         match &moving[..] {
             [] => {
                 script.line(&format!("apply (limit_at_infinity _ {g}); cbv beta."));
@@ -130,8 +130,8 @@ impl Limit<'_> {
                 {
                     return Err(unlike.into());
                 }
-                let factor = self.expr(part)?.over(self.expr(&den)?).argument();
-                let rate = self.expr(&rate)?.over(self.expr(&below)?).argument();
+                let factor = self.expr(part)?.divided_by(self.expr(&den)?).argument();
+                let rate = self.expr(&rate)?.divided_by(self.expr(&below)?).argument();
                 script.line(&format!("apply (limit_with_decay _ {g} {factor} {rate}); cbv beta."));
                 script.block("-", |own| self.equation(own, Some((*y, rate))))?;
                 script.block("-", |own| self.at_zero(own, |writer| Ok(writer.shown(&["Known".into()]))))?;

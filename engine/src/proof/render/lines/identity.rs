@@ -58,7 +58,7 @@ impl End<'_> {
         let first = self.goal.atoms.len();
         let certificate = match reason {
             Reason::Certificate(certificate) => certificate.clone(),
-            Reason::Fact(i) if self.state.supposed.contains(&(None, *i)) && what.is_empty() => {
+            Reason::Fact(i) if self.state.assumed.contains(&(None, *i)) && what.is_empty() => {
                 return Vec::new();
             }
             Reason::Fact(i) => {
@@ -179,7 +179,7 @@ impl End<'_> {
         {
             return self.equation_of_size(*of).map(|(equation, _)| equation);
         }
-        let (given, _) = self.state.supposed.iter().find(|(_, fact)| *fact == i)?;
+        let (given, _) = self.state.assumed.iter().find(|(_, fact)| *fact == i)?;
         let (of, sign) = self.state.facts.get(i).ok()?;
         let is_named = of.as_variable().is_none() || *sign == Sign::Zero;
         given
