@@ -30,7 +30,7 @@ pub struct Statement {
     inherits: bool,
     computes: Vec<(&'static str, Tree)>,
     form: Form,
-    rounds: bool,
+    contains_rounding: bool,
     hypotheses: Vec<Hypothesis>,
     invariants: Vec<Hypothesis>,
     computed: Vec<Computed>,
@@ -65,7 +65,7 @@ impl Statement {
 
     pub(super) fn of_form(name: &'static str, form: Form) -> Self {
         let (stated, computes, hypotheses, invariants, computed, goals) = Default::default();
-        let (equation, inherits, rounds) = ("", true, false);
+        let (equation, inherits, contains_rounding) = ("", true, false);
         let fresh = Statement {
             equation,
             name,
@@ -73,7 +73,7 @@ impl Statement {
             inherits,
             computes,
             form,
-            rounds,
+            contains_rounding,
             hypotheses,
             invariants,
             computed,
@@ -113,8 +113,9 @@ impl Statement {
             }
         }
         let stated = self.stated.iter().map(|hypothesis| &hypothesis.value);
-        self.rounds = self.rounds || self.formulas().chain(stated).any(Tree::contains_rounding);
-        if self.rounds {
+        self.contains_rounding =
+            self.contains_rounding || self.formulas().chain(stated).any(Tree::contains_rounding);
+        if self.contains_rounding {
             // The minimum precision comes last if other hypotheses on the precision, which are stronger,
             // exist.
             let of_precision = |h: &Hypothesis| h.value.symbols().contains(PRECISION);
@@ -252,7 +253,7 @@ impl Statement {
 
     /// Returns `true` if it concerns rounding to any precision.
     pub fn contains_rounding(&self) -> bool {
-        self.rounds
+        self.contains_rounding
     }
 
     /// Returns `true` if a formula contains eˣ, which rationals cannot compute.

@@ -114,12 +114,12 @@ impl Program {
 /// let mut program = Program::default();
 /// let [place, result] = [&x, &((&a + &a) * &x)].map(|formula| program.add(formula));
 /// let extra_ops = |_: provable::number::tree::Op<&f64>| None;
-/// let mut rounds = program.specialize(&|name| (name == "a").then_some(2.0), &extra_ops).unwrap();
-/// assert_eq!(rounds.len(), 1); // a + a is known
+/// let mut specialized = program.specialize(&|name| (name == "a").then_some(2.0), &extra_ops).unwrap();
+/// assert_eq!(specialized.len(), 1); // a + a is known
 /// for x in [1.0, 10.0] {
-///     rounds.replace(place, x);
-///     rounds.run(&extra_ops);
-///     assert_eq!(rounds[result], 4.0 * x);
+///     specialized.replace(place, x);
+///     specialized.run(&extra_ops);
+///     assert_eq!(specialized[result], 4.0 * x);
 /// }
 /// ```
 #[derive(Clone, Debug)]
@@ -188,12 +188,12 @@ mod tests {
         assert!(program.is_empty());
         program.add(&((&a + &a) * &x * &x));
         assert!(!program.is_empty() && program.len() == 5);
-        let rounds = |fixed: &[&str]| {
+        let specialize = |fixed: &[&str]| {
             let number = |name| fixed.contains(&name).then_some(2.0);
             program.specialize(&number, &|_| None).unwrap()
         };
-        assert!(rounds(&["a", "x"]).is_empty());
-        let two = rounds(&["a"]);
+        assert!(specialize(&["a", "x"]).is_empty());
+        let two = specialize(&["a"]);
         assert!(!two.is_empty() && two.len() == 2);
     }
 }

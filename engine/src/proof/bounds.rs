@@ -1,7 +1,7 @@
 //! Proved bounds of rounding errors, found by bisection.
 //!
-//! Each rounded result of a formula has a symbol and a bound of its distance from the exact value: K/2ᵖ, or K
-//! |x|/2ᵖ for a value x of known sign if that is not weaker. The smallest K that is proved from the
+//! Each rounded result of a formula has a symbol and a bound of its distance from the exact value: K/2ᵖ, or
+//! K |x|/2ᵖ for a value x of known sign if that is not weaker. The smallest K that is proved from the
 //! previous bounds is found by bisection, which need not be trusted: the result contains a proof of the whole
 //! chain.
 
@@ -86,19 +86,19 @@ pub fn rounding_bound(
     hypotheses: &[Hypothesis],
 ) -> Result<RoundingBound, RoundingBoundError> {
     let forms = [Form::Absolute, Form::Relative, Form::Opaque].into_par_iter();
-    let all = forms.map(|form| Chain::new(of, hypotheses, form).bound(of, scale));
-    let (mut failed, mut found): (Vec<_>, Vec<_>) = all.partition_map(|chain| match chain {
-        Ok(found) => Either::Right(found),
-        Err(failed) => Either::Left(failed),
+    let bounds = forms.map(|form| Chain::new(of, hypotheses, form).bound(of, scale));
+    let (mut errors, mut claims): (Vec<_>, Vec<_>) = bounds.partition_map(|bound| match bound {
+        Ok(claim) => Either::Right(claim),
+        Err(error) => Either::Left(error),
     });
-    found.sort_by(|(a, _), (b, _)| f64::total_cmp(a, b));
-    for (constant, claim) in found {
+    claims.sort_by(|(a, _), (b, _)| f64::total_cmp(a, b));
+    for (constant, claim) in claims {
         match prove(&claim) {
             Ok(proof) => return Ok(RoundingBound { constant, proof }),
-            Err(reason) => failed.push(RoundingBoundError { formula: exact(of), reason }),
+            Err(reason) => errors.push(RoundingBoundError { formula: exact(of), reason }),
         }
     }
-    Err(failed.swap_remove(0))
+    Err(errors.swap_remove(0))
 }
 
 /// Form of the bounds in a chain.
@@ -124,16 +124,21 @@ fn exact(of: &Tree) -> Tree {
 /// m 2ⁿ, with 64 ≤ m ≤ 128 or m = 0.
 type Number = (i32, i32);
 
+/// Returns a number as a formula in lowest terms.
 fn number((mut m, mut n): Number) -> Tree {
     while n < 0 && m % 2 == 0 && m != 0 {
         (m, n) = (m / 2, n + 1);
     }
-    let power = |n: i32| (0..n / 24).fold(Tree::int(1 << (n % 24)), |all, _| all * Tree::int(1 << 24));
     match n {
-        ..0 => Tree::int(m) / power(-n),
+        ..0 => Tree::int(m) / power_of_two(-n),
         0..24 => Tree::int(m << n),
-        _ => Tree::int(m) * power(n),
+        _ => Tree::int(m) * power_of_two(n),
     }
+}
+
+/// Returns 2ⁿ for n ≥ 0, as a product of integers up to 2²⁴.
+fn power_of_two(n: i32) -> Tree {
+    (0..n / 24).fold(Tree::int(1 << (n % 24)), |product, _| product * Tree::int(1 << 24))
 }
 
 /// Absolute exponent from which on no larger power of two is tried.
@@ -141,18 +146,17 @@ const POWERS: i32 = 60;
 
 /// Returns the smallest number for which a monotone predicate holds.
 fn least<E>(holds: impl Fn(&Tree) -> Result<(), E>) -> Result<Number, E> {
-    let is = |m: i32, n: i32| holds(&number((m, n)));
     // Steps are doubled until they pass the power, then halved.
     let (mut above, mut below, mut step, mut first) = (0, 0, 1, None);
-    if is(64, 0).is_ok() {
-        while is(64, below).is_ok() {
+    if holds(&number((64, 0))).is_ok() {
+        while holds(&number((64, below))).is_ok() {
             if below < -POWERS {
-                return is(0, 0).map(|()| (0, 0)).or(Ok((64, below)));
+                return holds(&number((0, 0))).map(|()| (0, 0)).or(Ok((64, below)));
             }
             (above, below, step) = (below, below - step, 2 * step);
         }
     } else {
-        while let Err(reason) = is(64, above) {
+        while let Err(reason) = holds(&number((64, above))) {
             if above > POWERS {
                 return Err(first.unwrap_or(reason));
             }
@@ -162,111 +166,121 @@ fn least<E>(holds: impl Fn(&Tree) -> Result<(), E>) -> Result<Number, E> {
     }
     while above - below > 1 {
         let middle = (above + below).div_euclid(2);
-        if is(64, middle).is_ok() { above = middle } else { below = middle }
+        if holds(&number((64, middle))).is_ok() { above = middle } else { below = middle }
     }
     let (mut more, mut less) = (128, 64);
     while more - less > 1 {
         let middle = (more + less) / 2;
-        if is(middle, below).is_ok() { more = middle } else { less = middle }
+        if holds(&number((middle, below))).is_ok() { more = middle } else { less = middle }
     }
     Ok((more, below))
 }
 
-/// A computed quantity that is part of a formula.
-struct NamedTree {
+/// A part of a formula that is expressed by a symbol.
+struct NamedPart {
     part: Tree,
+    /// The part as an expression of the symbol.
     by_symbol: Tree,
     symbol: Tree,
-    by: Tree,
+    /// The definition of the symbol.
+    definition: Tree,
     interval: Hypothesis,
 }
 
-/// Bounds found so far.
+/// The bounds found so far, each of which rests on the previous ones.
 struct Chain {
     hypotheses: Vec<Hypothesis>,
     form: Form,
-    named: Vec<NamedTree>,
-    taken: BTreeSet<&'static str>,
+    named: Vec<NamedPart>,
+    used_names: BTreeSet<&'static str>,
 }
 
 impl Chain {
     fn new(of: &Tree, hypotheses: &[Hypothesis], form: Form) -> Self {
         // Hypotheses on the precision come first.
-        let is_other = |h: &Hypothesis| !h.value.symbols().contains(PRECISION);
         let mut hypotheses: Vec<_> = hypotheses.iter().cloned().chain([minimum_precision()]).collect();
-        hypotheses.sort_by_key(is_other);
-        let taken = hypotheses.iter().map(|h| &h.value).chain([of]).flat_map(Tree::symbols).collect();
-        Chain { hypotheses, form, named: Vec::new(), taken }
+        hypotheses.sort_by_key(|h| !h.value.symbols().contains(PRECISION));
+        let used_names = hypotheses.iter().map(|h| &h.value).chain([of]).flat_map(Tree::symbols).collect();
+        Chain { hypotheses, form, named: Vec::new(), used_names }
     }
 
+    /// Returns the constant and the claim about the whole formula.
     fn bound(mut self, of: &Tree, scale: &Tree) -> Result<(f64, Statement), RoundingBoundError> {
         let formula = exact(of);
-        let no_bound = |reason| RoundingBoundError { formula: formula.clone(), reason };
         let rounded = if of.contains_rounding() { of.clone() } else { of.with_rounding() };
         for rounding in check::roundings([&rounded].into_iter()) {
-            let node = rounding.round();
-            if node != rounded {
-                self.name(&node)?;
+            let result = rounding.round();
+            if result != rounded {
+                let named = self.name_result(&result);
+                named.map_err(|reason| RoundingBoundError { formula: exact(&result), reason })?;
             }
         }
         let (value, scale) = (self.value(&formula), self.value(scale));
         let error = self.computed(&rounded) - value;
-        let constant = self.constant(&error, &scale).map_err(no_bound)?;
-        let claim = within("rounding-error", error, bounding(constant, &scale)).assuming(&self.hypotheses);
-        let claim = self.named.iter().fold(claim, |claim, NamedTree { symbol, by, interval, .. }| {
-            claim.assuming([interval]).computing(symbol, by)
+        let constant =
+            self.constant(&error, &scale).map_err(|reason| RoundingBoundError { formula, reason })?;
+        let claim = within("rounding-error", error, bound(constant, &scale)).assuming(&self.hypotheses);
+        let claim = self.named.iter().fold(claim, |claim, NamedPart { symbol, definition, interval, .. }| {
+            claim.assuming([interval]).computing(symbol, definition)
         });
         Ok((f64::from(constant.0) * 2.0_f64.powi(constant.1), claim))
     }
 
-    /// Adds a rounded result with a bound of its error.
-    fn name(&mut self, node: &Tree) -> Result<(), RoundingBoundError> {
-        let (formula, computed) = (exact(node), self.computed(node));
-        let no_bound = |reason| RoundingBoundError { formula: formula.clone(), reason };
-        let value = self.value(&formula);
-        let has_sign = |of: &Tree| self.proves(Proposition::Sign(Relation::NonNegative, of.clone())).is_ok();
+    /// Names a rounded result, and bounds its error.
+    fn name_result(&mut self, result: &Tree) -> Result<(), ProofError> {
+        let (computed, value) = (self.computed(result), self.value(&exact(result)));
         let error = &computed - &value;
-        let by = |size: Tree| Ok((self.constant(&error, &size)?, size));
-        let sizes = [value.clone(), -&value].into_iter().filter(|_| self.form == Form::Relative);
-        let relative = sizes.into_iter().find(has_sign).and_then(|size| by(size).ok());
-        let (constant, size) = relative.map_or_else(|| by(Tree::int(1)), Ok).map_err(no_bound)?;
-        let most = bounding(constant, &size);
+        let bound = match self.relative_bound(&error, &value) {
+            Some(bound) => bound,
+            None => bound(self.constant(&error, &Tree::int(1))?, &Tree::int(1)),
+        };
         if self.form == Form::Opaque {
-            let (middle, half) = self.interval(&value).map_err(no_bound)?;
-            let exact = self.fresh('w');
-            let within = Hypothesis::near(&exact, middle, half);
-            self.name_as(value.clone(), exact.clone(), exact.clone(), value, within);
-            let symbol = self.fresh('d');
-            let near = Hypothesis::near(&symbol, 0, most);
-            self.name_as(computed, exact + &symbol, symbol, error, near);
+            let (middle, half) = self.interval(&value)?;
+            let exact = self.new_symbol('w');
+            let interval = Hypothesis::near(&exact, middle, half);
+            self.name_as(value.clone(), exact.clone(), exact.clone(), value, interval);
+            let symbol = self.new_symbol('d');
+            let interval = Hypothesis::near(&symbol, 0, bound);
+            self.name_as(computed, exact + &symbol, symbol, error, interval);
         } else {
-            let symbol = self.fresh('v');
-            let near = Hypothesis::near(&symbol, value, most);
-            self.name_as(computed.clone(), symbol.clone(), symbol, computed, near);
+            let symbol = self.new_symbol('v');
+            let interval = Hypothesis::near(&symbol, value, bound);
+            self.name_as(computed.clone(), symbol.clone(), symbol, computed, interval);
         }
         Ok(())
     }
 
-    fn name_as(&mut self, part: Tree, by_symbol: Tree, symbol: Tree, by: Tree, interval: Hypothesis) {
-        self.named.push(NamedTree { part, by_symbol, symbol, by, interval });
+    /// Returns a bound of an error relative to the value, if bounds may be relative and its sign is proved.
+    fn relative_bound(&self, error: &Tree, value: &Tree) -> Option<Tree> {
+        let mut sizes = [value.clone(), -value].into_iter().filter(|_| self.form == Form::Relative);
+        let size =
+            sizes.find(|of| self.proves(Proposition::Sign(Relation::NonNegative, of.clone())).is_ok())?;
+        Some(bound(self.constant(error, &size).ok()?, &size))
     }
 
-    fn fresh(&mut self, letter: char) -> Tree {
+    fn name_as(&mut self, part: Tree, by_symbol: Tree, symbol: Tree, definition: Tree, interval: Hypothesis) {
+        self.named.push(NamedPart { part, by_symbol, symbol, definition, interval });
+    }
+
+    fn new_symbol(&mut self, letter: char) -> Tree {
         let mut names = (0..=u8::MAX).map(|index| subscripted(letter, index));
-        let name =
-            names.find(|name| self.taken.insert(name)).expect("no formula within the limits has as many");
+        let name = names
+            .find(|name| self.used_names.insert(name))
+            .expect("no formula within the limits has as many");
         Tree::symbol(name)
     }
 
     /// Returns the midpoint of an interval of a value, and half its width.
     fn interval(&self, of: &Tree) -> Result<(Tree, Tree), ProofError> {
-        let most = number(least(|k| self.proves(Proposition::Within(of.clone(), k.clone())))?);
-        let beyond = |of: &Tree| {
-            let margin = |k: &Tree| self.proves(Proposition::Sign(Relation::NonNegative, k - &most - of));
-            Ok::<_, ProofError>(number(least(margin)?) - &most)
-        };
-        let (lower, upper) = (-beyond(&-of)?, beyond(of)?);
+        let size = number(least(|k| self.proves(Proposition::Within(of.clone(), k.clone())))?);
+        let (lower, upper) = (-self.upper_bound(&-of, &size)?, self.upper_bound(of, &size)?);
         Ok([&upper + &lower, upper - lower].map(|sum| sum / Tree::int(2)).into())
+    }
+
+    /// Returns an upper bound of a value whose absolute value is at most `size`.
+    fn upper_bound(&self, of: &Tree, size: &Tree) -> Result<Tree, ProofError> {
+        let sum = least(|k| self.proves(Proposition::Sign(Relation::NonNegative, k - size - of)))?;
+        Ok(number(sum) - size)
     }
 
     /// Returns a rounded formula with symbols for its rounded parts.
@@ -280,8 +294,13 @@ impl Chain {
     }
 
     fn by_symbols(&self, of: &Tree, rounded: bool) -> Tree {
-        let named = || self.named.iter().filter(|named| matches!(named.part.op(), Op::Rounded(_)) == rounded);
-        of.rewrite(&|tree| named().find(|named| named.part == *tree).map(|named| named.by_symbol.clone()))
+        of.rewrite(&|tree| {
+            let part = self
+                .named
+                .iter()
+                .find(|named| matches!(named.part.op(), Op::Rounded(_)) == rounded && named.part == *tree)?;
+            Some(part.by_symbol.clone())
+        })
     }
 
     /// Returns the smallest K for which |error| ≤ K m/2ᵖ is proved.
@@ -289,11 +308,11 @@ impl Chain {
         least(|k| self.proves(Proposition::Within(error.clone(), k * scale / Tree::symbol(PRECISION))))
     }
 
+    /// Tries to prove a proposition from the hypotheses and the intervals of the symbols on which it depends.
     fn proves(&self, proposition: Proposition) -> Result<(), ProofError> {
-        // Symbols in the proposition, and in their intervals.
         let mut symbols: BTreeSet<_> = proposition.trees().into_iter().flat_map(Tree::symbols).collect();
         let mut intervals = Vec::new();
-        for NamedTree { symbol, interval, .. } in self.named.iter().rev() {
+        for NamedPart { symbol, interval, .. } in self.named.iter().rev() {
             if symbol.first_symbol().is_some_and(|name| symbols.contains(name)) {
                 symbols.extend(interval.value.symbols());
                 intervals.push(interval);
@@ -304,8 +323,8 @@ impl Chain {
     }
 }
 
-/// K m/2ᵖ
-fn bounding(constant: Number, scale: &Tree) -> Tree {
+/// Returns K m/2ᵖ.
+fn bound(constant: Number, scale: &Tree) -> Tree {
     number(constant) * scale / Tree::symbol(PRECISION)
 }
 

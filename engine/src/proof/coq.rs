@@ -109,7 +109,7 @@ impl<'a> Development<'a> {
                 Ok(text) => {
                     written.push(Written {
                         section: section.to_string(),
-                        rounds: claim.contains_rounding(),
+                        contains_rounding: claim.contains_rounding(),
                         text,
                     });
                 }
@@ -132,12 +132,12 @@ impl<'a> Development<'a> {
     pub fn files(&self) -> Vec<File> {
         let mut files: Vec<_> = PROGRAM.iter().map(|(name, text)| file(name, text.to_string())).collect();
         files.push(file(DEFINITIONS, self.definitions()));
-        if self.written.iter().any(|written| written.rounds) {
+        if self.written.iter().any(|written| written.contains_rounding) {
             files.push(file(ROUNDING, include_str!("coq/rounding.v").to_string()));
         }
         let mut theorems = by_section(&self.written);
-        let name = |file: &File| format!(" {}", file.name.trim_end_matches(".v"));
-        let mut all: String = theorems.iter().map(name).collect();
+        let mut all: String =
+            theorems.iter().map(|file| format!(" {}", file.name.trim_end_matches(".v"))).collect();
         if let Some((name, text)) = self.more {
             let head = format!("From LIBRARY Require Import {TACTICS} {DEFINITIONS}{all}.\n\n");
             theorems.push(file(name, head + text));
@@ -172,20 +172,19 @@ impl<'a> Development<'a> {
     pub fn write(&self, directory: &Path) -> io::Result<Vec<PathBuf>> {
         fs::create_dir_all(directory)?;
         let files = self.files();
-        let part = |file: &File| directory.join(format!("{}.part", file.name));
-        let path = |file: &File| directory.join(&file.name);
+        let names = files.iter().map(|file| (directory.join(format!("{}.part", file.name)), &file.name));
+        let (parts, paths): (Vec<_>, Vec<_>) = names.map(|(part, name)| (part, directory.join(name))).unzip();
         // All files are written under temporary names first, so that a full disk does not affect existing
         // files.
-        let written = files
-            .iter()
-            .try_for_each(|file| fs::write(part(file), &file.text))
-            .and_then(|()| files.iter().try_for_each(|file| fs::rename(part(file), path(file))));
+        let mut written = files.iter().zip(&parts).try_for_each(|(file, part)| fs::write(part, &file.text));
+        written = written
+            .and_then(|()| parts.iter().zip(&paths).try_for_each(|(part, path)| fs::rename(part, path)));
         if written.is_err() {
-            for file in &files {
-                let _ = fs::remove_file(part(file));
+            for part in &parts {
+                let _ = fs::remove_file(part);
             }
         }
-        written.map(|()| files.iter().map(path).collect())
+        written.map(|()| paths)
     }
 
     /// Returns the claims without a theorem, with reasons.
@@ -196,7 +195,8 @@ impl<'a> Development<'a> {
     /// Returns the file of definitions.
     fn definitions(&self) -> String {
         let printer = Printer { registry: self.registry, preferred: &[] };
-        let mut text = format!("(** * The functions, as their source computes them. *)\n{}", head(false, ""));
+        let mut text =
+            format!("(** * The functions, as their source computes them. *)\n{}", header(false, ""));
         for formula in self.registry.formulas() {
             let (name, body) = (print::function(formula), printer.body(formula));
             let binders = self.registry.common_symbols(formula).chain(formula.depends_on()).map(ascii);
@@ -222,11 +222,9 @@ fn conjunction(file: &mut File) -> String {
 
 /// Returns the names of the theorems and lemmas in a text.
 fn theorem_names(text: &str) -> impl Iterator<Item = &str> {
-    let statement =
-        |line: &'_ str| line.strip_prefix("Theorem ").or(line.strip_prefix("Lemma ")).map(str::len);
-    text.lines().filter_map(move |line| {
-        let rest = &line[line.len() - statement(line)?..];
-        rest.split(|c| !is_part_of_name(c)).next()
+    text.lines().filter_map(|line| {
+        let statement = line.strip_prefix("Theorem ").or(line.strip_prefix("Lemma "))?;
+        statement.split(|c| !is_part_of_name(c)).next()
     })
 }
 
@@ -273,28 +271,28 @@ fn identifier(text: &str) -> String {
 struct Written {
     section: String,
     /// Whether it contains roundings.
-    rounds: bool,
+    contains_rounding: bool,
     text: String,
 }
 
 /// Returns the files of theorems, one or more for each section.
 fn by_section(written: &[Written]) -> Vec<File> {
     let mut sections: Vec<((&str, bool), Vec<&str>)> = Vec::new();
-    for Written { section, rounds, text } in written {
-        let own = (section.as_str(), *rounds);
-        match sections.iter_mut().find(|(known, _)| *known == own) {
+    for Written { section, contains_rounding, text } in written {
+        let key = (section.as_str(), *contains_rounding);
+        match sections.iter_mut().find(|(known, _)| *known == key) {
             Some((_, texts)) => texts.push(text),
-            None => sections.push((own, vec![text])),
+            None => sections.push((key, vec![text])),
         }
     }
     let mut files = Vec::new();
-    for ((section, rounds), texts) in sections {
+    for ((section, contains_rounding), texts) in sections {
         for (texts, part) in texts.chunks(PER_FILE).zip('a'..='z') {
             let section = section.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
-            let laws = if rounds { "_rounding" } else { "" };
+            let laws = if contains_rounding { "_rounding" } else { "" };
             files.push(file(
                 &format!("C_{section}{laws}_{part}"),
-                head(rounds, DEFINITIONS) + &texts.concat(),
+                header(contains_rounding, DEFINITIONS) + &texts.concat(),
             ));
         }
     }
@@ -303,14 +301,13 @@ fn by_section(written: &[Written]) -> Vec<File> {
 }
 
 /// Returns the header of a file, which requires tactics, those for rounding if needed, and `more`.
-fn head(rounds: bool, more: &str) -> String {
-    let import = |names: &str| format!("From LIBRARY Require Import {}.\n", names.trim_end());
-    match rounds {
-        true => format!(
-            "From Flocq Require Import Core.\n{}Open Scope R_scope.\n",
-            import(&format!("{TACTICS} {ROUNDING} {more}"))
-        ),
-        false => import(&format!("{TACTICS} {more}")),
+fn header(contains_rounding: bool, more: &str) -> String {
+    let names =
+        if contains_rounding { format!("{TACTICS} {ROUNDING} {more}") } else { format!("{TACTICS} {more}") };
+    let import = format!("From LIBRARY Require Import {}.\n", names.trim_end());
+    match contains_rounding {
+        true => format!("From Flocq Require Import Core.\n{import}Open Scope R_scope.\n"),
+        false => import,
     }
 }
 

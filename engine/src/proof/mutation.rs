@@ -99,23 +99,23 @@ pub struct Summary {
 impl MutationReport {
     /// Counts the mutants by outcome.
     pub fn summary(&self) -> Summary {
-        let count =
-            |is: fn(&MutationOutcome) -> bool| self.mutants.iter().filter(|(_, effect)| is(effect)).count();
-        Summary {
-            mutations: self.mutants.len(),
-            detected: count(|effect| matches!(effect, MutationOutcome::Detected { .. })),
-            equivalent: count(|effect| matches!(effect, MutationOutcome::Equivalent)),
-            undetected: count(|effect| matches!(effect, MutationOutcome::Undetected)),
+        let mut summary = Summary { mutations: self.mutants.len(), ..Summary::default() };
+        for (_, outcome) in &self.mutants {
+            match outcome {
+                MutationOutcome::Detected { .. } => summary.detected += 1,
+                MutationOutcome::Equivalent => summary.equivalent += 1,
+                MutationOutcome::Undetected => summary.undetected += 1,
+            }
         }
+        summary
     }
 
     /// Returns the hypotheses whose omission does not make the claim false, except bounds of the
     /// [precision](DroppedHypothesis::is_precision_only).
     pub fn redundant_hypotheses(&self) -> impl Iterator<Item = &DroppedHypothesis> {
-        let is_needed = |dropped: &DroppedHypothesis| {
-            matches!(dropped.outcome, DropOutcome::Refuted(_)) || dropped.is_precision_only()
-        };
-        self.dropped.iter().filter(move |dropped| !is_needed(dropped))
+        self.dropped.iter().filter(|dropped| {
+            !matches!(dropped.outcome, DropOutcome::Refuted(_)) && !dropped.is_precision_only()
+        })
     }
 }
 
@@ -154,59 +154,36 @@ struct SharedState<'a> {
 impl<'a> SharedState<'a> {
     fn new(statements: &'a [Statement], registry: &'a Registry) -> Self {
         let symbols = registry.symbols_of(statements.iter().flat_map(Statement::trees));
-        let mut by_site: HashMap<Site, BTreeSet<(bool, usize, usize)>> = HashMap::new();
-        for (index, statement) in statements.iter().enumerate() {
-            let (mut operations, mut has_duals, mut sites) = (0, false, BTreeSet::new());
-            for tree in statement.trees() {
-                tree.visit(&mut |tree| {
-                    let site = tree.site();
-                    operations += 1;
-                    has_duals |= site.is_in_dual_numbers();
-                    if registry.has_site(&site) {
-                        sites.insert(site);
-                    }
-                });
-            }
-            for site in sites {
-                by_site.entry(site).or_default().insert((has_duals, operations, index));
-            }
+        let by_site = statements_by_site(statements, registry);
+        let mut combinations = Vec::new();
+        let all_hypotheses = statements.iter().map(|s| index_of(s.hypotheses(), &mut combinations)).collect();
+        let mut without_one = Vec::with_capacity(statements.len());
+        for statement in statements {
+            let hypotheses = statement.hypotheses().iter();
+            let indices = hypotheses.map(|h| index_of(statement.without(h).hypotheses(), &mut combinations));
+            without_one.push(indices.collect());
         }
-        let indices = |of: BTreeSet<(bool, usize, usize)>| of.into_iter().map(|(.., i)| i).collect();
-        let by_site = by_site.into_iter().map(|(site, of)| (site, indices(of))).collect();
-        let mut combinations: Vec<Vec<Hypothesis>> = Vec::new();
-        let mut index_of = |hypotheses: Vec<Hypothesis>| {
-            let index = combinations.iter().position(|known| *known == hypotheses);
-            index.unwrap_or_else(|| {
-                combinations.push(hypotheses);
-                combinations.len() - 1
-            })
-        };
-        let all_hypotheses = statements.iter().map(|s| index_of(s.hypotheses().to_vec())).collect();
-        let mut without_one = |s: &Statement| {
-            s.hypotheses().iter().map(|h| index_of(s.without(h).hypotheses().to_vec())).collect::<Vec<_>>()
-        };
-        let without_one = statements.iter().map(&mut without_one).collect();
         let points = combinations.into_par_iter().map(|of| PointSet::of(of, symbols.clone())).collect();
         SharedState { statements, registry, symbols, by_site, points, all_hypotheses, without_one }
     }
 
     /// Returns the statements that contain the mutated operation, with the mutation.
-    fn affected(&self, change: &Mutant) -> impl Iterator<Item = (usize, Statement)> {
-        let statements = self.by_site.get(&change.site).into_iter().flatten();
-        statements.filter_map(|&i| Some((i, change.apply(&self.statements[i])?)))
+    fn affected(&self, mutant: &Mutant) -> impl Iterator<Item = (usize, Statement)> {
+        let statements = self.by_site.get(&mutant.site).into_iter().flatten();
+        statements.filter_map(|&i| Some((i, mutant.apply(&self.statements[i])?)))
     }
 
     /// Returns the first refutation of a mutated statement, at the first points or thoroughly at the others.
-    fn detected(&self, change: &Mutant, thoroughly: bool) -> Option<MutationOutcome> {
-        self.affected(change).find_map(|(i, changed)| {
+    fn detected(&self, mutant: &Mutant, thoroughly: bool) -> Option<MutationOutcome> {
+        self.affected(mutant).find_map(|(i, mutated)| {
             let original = &self.statements[i];
-            let changed_points = (original.hypotheses() != changed.hypotheses())
-                .then(|| PointSet::of(changed.hypotheses().to_vec(), self.symbols.clone()));
-            let points = changed_points.as_ref().unwrap_or(&self.points[self.all_hypotheses[i]]);
+            let mutated_points = (original.hypotheses() != mutated.hypotheses())
+                .then(|| PointSet::of(mutated.hypotheses().to_vec(), self.symbols.clone()));
+            let points = mutated_points.as_ref().unwrap_or(&self.points[self.all_hypotheses[i]]);
             let refutation = if thoroughly {
-                points.refute_at_other_points(&changed)
+                points.refute_at_other_points(&mutated)
             } else {
-                points.refute_at_first_points(&changed)
+                points.refute_at_first_points(&mutated)
             }?;
             Some(MutationOutcome::Detected {
                 equation: original.equation(),
@@ -216,22 +193,28 @@ impl<'a> SharedState<'a> {
         })
     }
 
-    fn outcome(&self, change: &Mutant) -> MutationOutcome {
-        let is_equivalent = |(i, _): (usize, _)| change.is_equivalent(&self.statements[i], self.registry);
-        let unchanged = || self.affected(change).all(is_equivalent);
-        self.detected(change, false)
-            .or_else(|| unchanged().then_some(MutationOutcome::Equivalent))
-            .or_else(|| self.detected(change, true))
-            .unwrap_or(MutationOutcome::Undetected)
+    fn outcome(&self, mutant: &Mutant) -> MutationOutcome {
+        if let Some(detected) = self.detected(mutant, false) {
+            return detected;
+        }
+        let mut affected = self.affected(mutant);
+        if affected.all(|(i, _)| mutant.is_equivalent(&self.statements[i], self.registry)) {
+            return MutationOutcome::Equivalent;
+        }
+        self.detected(mutant, true).unwrap_or(MutationOutcome::Undetected)
     }
 
     fn dropped(&self) -> Vec<DroppedHypothesis> {
-        // The minimum precision of two bits is part of the model of rounding.
-        let droppable = |of: usize| {
-            let is_stated = move |i: &usize| self.statements[of].hypotheses()[*i] != minimum_precision();
-            (0..self.statements[of].hypotheses().len()).filter(is_stated).map(move |i| (of, i))
-        };
-        let hypotheses: Vec<_> = (0..self.statements.len()).flat_map(droppable).collect();
+        let hypotheses: Vec<_> = self
+            .statements
+            .iter()
+            .enumerate()
+            .flat_map(|(of, statement)| {
+                let all = statement.hypotheses().iter().enumerate();
+                // The minimum precision of two bits is part of the model of rounding.
+                all.filter(|(_, hypothesis)| **hypothesis != minimum_precision()).map(move |(i, _)| (of, i))
+            })
+            .collect();
         let dropped = hypotheses.into_par_iter().map(|(of, i)| DroppedHypothesis {
             equation: self.statements[of].equation(),
             name: self.statements[of].name(),
@@ -253,6 +236,36 @@ impl<'a> SharedState<'a> {
             }
         }
     }
+}
+
+/// Returns the statements in which each site occurs, those without dual numbers and with few operations first.
+fn statements_by_site(statements: &[Statement], registry: &Registry) -> HashMap<Site, Vec<usize>> {
+    let mut by_site: HashMap<Site, BTreeSet<(bool, usize, usize)>> = HashMap::new();
+    for (index, statement) in statements.iter().enumerate() {
+        let (mut operations, mut has_duals, mut sites) = (0, false, BTreeSet::new());
+        for tree in statement.trees() {
+            tree.visit(&mut |tree| {
+                let site = tree.site();
+                operations += 1;
+                has_duals |= site.is_in_dual_numbers();
+                if registry.has_site(&site) {
+                    sites.insert(site);
+                }
+            });
+        }
+        for site in sites {
+            by_site.entry(site).or_default().insert((has_duals, operations, index));
+        }
+    }
+    by_site.into_iter().map(|(site, of)| (site, of.into_iter().map(|(.., i)| i).collect())).collect()
+}
+
+/// Returns the index of a combination of hypotheses, which is added if it is new.
+fn index_of(hypotheses: &[Hypothesis], combinations: &mut Vec<Vec<Hypothesis>>) -> usize {
+    combinations.iter().position(|known| *known == hypotheses).unwrap_or_else(|| {
+        combinations.push(hypotheses.to_vec());
+        combinations.len() - 1
+    })
 }
 
 #[cfg(test)]

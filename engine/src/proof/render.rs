@@ -46,26 +46,28 @@ impl<'a> ProofPrinter<'a> {
         let Some(sequence) = statement.conclusion() else {
             let goals = statement.goals().iter().filter(|goal| goal.role == Role::Claim);
             let goals: Vec<_> = goals.map(|goal| self.format_proposition(&goal.proposition)).collect();
-            let place = if computed.is_empty() { "" } else { ", where " };
-            return goals.join("; ") + place + &computed.join(" and ");
+            let separator = if computed.is_empty() { "" } else { ", where " };
+            return goals.join("; ") + separator + &computed.join(" and ");
         };
         let Sequence { start, step, ratio, member, limit, within } = sequence;
-        let together =
-            |trees: &[Tree]| trees.iter().map(|tree| self.text(tree)).collect::<Vec<_>>().join(", ");
         let (index, power) = (self.index(statement), self.power(statement, ratio));
-        let place = [&[power], &computed[..]].concat().join(" and ");
+        let definitions = [&[power], &computed[..]].concat().join(" and ");
         if let Some(limit) = limit {
-            return format!("{} → {} for {place} and {index} → ∞", together(member), self.text(limit));
+            return format!("{} → {} for {definitions} and {index} → ∞", self.list(member), self.text(limit));
         }
-        let (from, to, members) = (together(start), together(step), MEMBERS[..step.len()].join(", "));
-        let bound = |(of, bound): &(Tree, Tree)| {
-            self.format_proposition(&Proposition::Within(of.clone(), bound.clone()))
-        };
-        let leads_to = match &within.iter().map(bound).collect::<Vec<_>>()[..] {
-            [] => together(member),
+        let (from, to, members) = (self.list(start), self.list(step), MEMBERS[..step.len()].join(", "));
+        let bounds = within
+            .iter()
+            .map(|(of, bound)| self.format_proposition(&Proposition::Within(of.clone(), bound.clone())));
+        let result = match &bounds.collect::<Vec<_>>()[..] {
+            [] => self.list(member),
             bounds => format!("{members} with {}", bounds.join(" and ")),
         };
-        format!("{index} steps from {from}, each of {members} to {to}, lead to {leads_to}, where {place}")
+        format!("{index} steps from {from}, each of {members} to {to}, lead to {result}, where {definitions}")
+    }
+
+    fn list(&self, trees: &[Tree]) -> String {
+        trees.iter().map(|tree| self.text(tree)).collect::<Vec<_>>().join(", ")
     }
 
     /// Returns the properties of a sequence at every step, and of computed quantities, which are proved and
@@ -89,8 +91,8 @@ impl<'a> ProofPrinter<'a> {
         let symbols: Vec<_> = statement.trees().flat_map(Tree::symbols).collect();
         let names = self.called(statement).into_iter().map(|called| called.formula.symbol);
         let taken: BTreeSet<_> = symbols.into_iter().chain(names).collect();
-        let is_free = |(letter, _): &&(char, char)| !taken.contains(letter.to_string().as_str());
-        *LETTERS.iter().find(is_free).unwrap_or(&LETTERS[0])
+        let mut free = LETTERS.iter().filter(|(letter, _)| !taken.contains(letter.to_string().as_str()));
+        *free.next().unwrap_or(&LETTERS[0])
     }
 
     /// Returns the definition of the power of a ratio: `q = ρᵏ`.
@@ -108,13 +110,14 @@ impl<'a> ProofPrinter<'a> {
 
     /// Formats a goal.
     fn format_proposition(&self, proposition: &Proposition) -> String {
-        let text = |tree: &Tree| self.text(tree);
         match proposition {
-            Proposition::Equal(left, right) => format!("{} = {}", text(left), text(right)),
-            Proposition::Sign(relation, of) => format!("{} {relation} 0", text(of)),
-            Proposition::Within(of, bound) => format!("{} ≤ {}", text(&of.abs()), text(bound)),
-            Proposition::Derivative(of, x, is) => format!("∂/∂{x} [{}] = {}", text(of), text(is)),
-            Proposition::Limit(of, x, to) => format!("lim [{}] = {} for {x} → ∞", text(of), text(to)),
+            Proposition::Equal(left, right) => format!("{} = {}", self.text(left), self.text(right)),
+            Proposition::Sign(relation, of) => format!("{} {relation} 0", self.text(of)),
+            Proposition::Within(of, bound) => format!("{} ≤ {}", self.text(&of.abs()), self.text(bound)),
+            Proposition::Derivative(of, x, is) => format!("∂/∂{x} [{}] = {}", self.text(of), self.text(is)),
+            Proposition::Limit(of, x, to) => {
+                format!("lim [{}] = {} for {x} → ∞", self.text(of), self.text(to))
+            }
         }
     }
 
@@ -125,9 +128,9 @@ impl<'a> ProofPrinter<'a> {
         }
         let mut all = Vec::new();
         for (goal, node) in proof.statement().goals().iter().zip(proof.goals()) {
-            let given = proof.statement().hypotheses_for(goal.role);
+            let hypotheses = proof.statement().hypotheses_for(goal.role);
             let used = leaves(node).into_iter().flat_map(|leaf| &leaf.hypotheses);
-            for hypothesis in used.filter_map(|i| given.get(*i)) {
+            for hypothesis in used.filter_map(|i| hypotheses.get(*i)) {
                 if !all.contains(*hypothesis) {
                     all.push((*hypothesis).clone());
                 }
@@ -141,51 +144,47 @@ impl<'a> ProofPrinter<'a> {
         if let Some(registry) = self.other_names(statement) {
             return ProofPrinter::new(&registry).names(statement);
         }
-        let definition = |Called { formula, arguments }: &Called| {
-            let names: Vec<_> = self.registry.displayed_arguments(formula, *arguments).collect();
+        let called = self.called(statement).into_iter();
+        let definitions = called.map(|Called { formula, arguments }| {
+            let names: Vec<_> = self.registry.displayed_arguments(formula, arguments).collect();
             let names = if names.is_empty() { String::new() } else { format!("({})", names.join(", ")) };
             format!("{}{names} = {}", formula.symbol, self.registry.typeset(formula, Notation::Text))
-        };
-        self.called(statement).iter().map(definition).collect()
+        });
+        definitions.collect()
     }
 
     /// Returns the formulas abbreviated in the text of the statement, and those abbreviated in their
     /// definitions.
     fn called(&self, statement: &Statement) -> Vec<Called<'a>> {
-        let called = RefCell::new(Vec::<Called<'a>>::new());
-        let collect = |tree: &Tree| {
-            let name = |part: &Tree| {
-                let name = self.registry.call_name(part)?;
-                let Call { formula, .. } = self.registry.call(part)?;
-                let (mut called, arguments) = (called.borrow_mut(), name.arguments.len());
-                match called.iter_mut().find(|known| known.formula.name() == formula.name()) {
-                    Some(known) => known.arguments = known.arguments.max(arguments),
-                    None => called.push(Called { formula, arguments }),
-                }
-                Some(name)
-            };
-            tree.typeset(Notation::Text, &name);
-        };
-        statement.trees().for_each(collect);
+        let mut called = Vec::new();
+        statement.trees().for_each(|tree| self.add_called(tree, &mut called));
         if let Some(Sequence { start, step, ratio, member, limit, within }) = statement.conclusion() {
             let bounds = within.iter().flat_map(|(of, bound)| [of, bound]);
-            start
-                .iter()
-                .chain(step)
-                .chain([ratio])
-                .chain(member)
-                .chain(limit)
-                .chain(bounds)
-                .for_each(collect);
+            let trees = start.iter().chain(step).chain([ratio]).chain(member).chain(limit).chain(bounds);
+            trees.for_each(|tree| self.add_called(tree, &mut called));
         }
         // A definition may contain further names.
         let mut i = 0;
-        loop {
-            let Some(formula) = called.borrow().get(i).map(|called| called.formula) else { break };
-            formula.tree.op().operands().for_each(collect);
+        while let Some(Called { formula, .. }) = called.get(i) {
+            formula.tree.op().operands().for_each(|tree| self.add_called(tree, &mut called));
             i += 1;
         }
-        called.into_inner()
+        called
+    }
+
+    /// Adds the formulas abbreviated in the text of a formula.
+    fn add_called(&self, tree: &Tree, called: &mut Vec<Called<'a>>) {
+        let all = RefCell::new(called);
+        tree.typeset(Notation::Text, &|part| {
+            let name = self.registry.call_name(part)?;
+            let Call { formula, .. } = self.registry.call(part)?;
+            let (mut called, arguments) = (all.borrow_mut(), name.arguments.len());
+            match called.iter_mut().find(|known| known.formula.name() == formula.name()) {
+                Some(known) => known.arguments = known.arguments.max(arguments),
+                None => called.push(Called { formula, arguments }),
+            }
+            Some(name)
+        });
     }
 
     /// Returns the lines of the whole proof.
@@ -214,10 +213,10 @@ impl<'a> ProofPrinter<'a> {
         let single = statement.goals().len() == 1;
         for (Goal { part, role, proposition }, node) in statement.goals().iter().zip(proof.goals()) {
             let problem = Problem::new(proposition, statement.hypotheses_for(*role));
-            let own = problem.map(|problem| Lines::new(self, &problem).node(node, &mut Vec::new()));
-            let own = own.unwrap_or_default();
+            let goal_lines = problem.map(|problem| Lines::new(self, &problem).node(node, &mut Vec::new()));
+            let goal_lines = goal_lines.unwrap_or_default();
             if single {
-                lines.extend(own);
+                lines.extend(goal_lines);
             } else {
                 let part = match statement.conclusion() {
                     Some(Sequence { ratio, .. }) => part.replace("|ρ|", &self.text(&ratio.abs())),
@@ -225,7 +224,7 @@ impl<'a> ProofPrinter<'a> {
                 };
                 let colon = if part.is_empty() { "" } else { ": " };
                 lines.push(format!("{part}{colon}{}", self.format_proposition(proposition)));
-                lines.extend(own.into_iter().map(|line| format!("  {line}")));
+                lines.extend(goal_lines.into_iter().map(|line| format!("  {line}")));
             }
         }
         lines
@@ -241,7 +240,7 @@ impl<'a> ProofPrinter<'a> {
         let all = statement.goals().iter().zip(proof.goals());
         all.filter_map(|(Goal { role, proposition, .. }, proof)| {
             let problem = Problem::new(proposition, statement.hypotheses_for(*role)).ok()?;
-            let hypotheses = problem.hypotheses.iter().map(|given| self.registry.format_hypothesis(given));
+            let hypotheses = problem.hypotheses.iter().map(|h| self.registry.format_hypothesis(h));
             Some(GoalProof {
                 goal: self.format_proposition(proposition),
                 hypotheses: hypotheses.collect(),

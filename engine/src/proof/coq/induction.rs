@@ -42,14 +42,14 @@ impl<'a> Claim<'a> {
         let text = proved.collect::<Result<String>>()?;
 
         let computed = self.statement.computed();
-        let own = start.iter().chain(step).chain(member).chain([ratio]);
-        let trees = own.chain(within.iter().flat_map(|(of, bound)| [of, bound]));
+        let trees = start.iter().chain(step).chain(member).chain([ratio]);
+        let trees = trees.chain(within.iter().flat_map(|(of, bound)| [of, bound]));
         let trees = trees.chain(computed.iter().map(|computed| &computed.formula));
-        let mut theorem = self.supposing("", self.statement.hypotheses_for(Role::InvariantBase), trees);
-        let bound =
-            |var: &str| var == POWER || MEMBERS.contains(&var) || computed.iter().any(|c| c.symbol == var);
-        theorem.variables.retain(|var| !bound(var));
-        let choice = if theorem.rounds { " prec choice" } else { "" };
+        let mut theorem = self.new_lemma("", self.statement.hypotheses_for(Role::InvariantBase), trees);
+        theorem.variables.retain(|var| {
+            *var != POWER && !MEMBERS.contains(var) && computed.iter().all(|c| c.symbol != *var)
+        });
+        let choice = if theorem.contains_rounding { " prec choice" } else { "" };
         let iterates = format!("{}_iterates{choice}{}", self.name, names(&theorem.variables));
         let power = format!("({} ^ n)", self.printer.expr(ratio).base());
         let induction = Induction { claim: self, sequence, theorem, lemmas, iterates, power };
@@ -84,7 +84,7 @@ impl Induction<'_, '_> {
             none if none.is_empty() => none,
             names => format!(" ({} : R)", names.trim_start()),
         };
-        let choice = if self.theorem.rounds { " (prec : Z) (choice : Z -> bool)" } else { "" };
+        let choice = if self.theorem.contains_rounding { " (prec : Z) (choice : Z -> bool)" } else { "" };
         let head = format!("{}_iterates{choice}{variables} (n : nat)", self.claim.name);
         let kind = vec!["R"; start.len()].join(" * ");
         format!(
@@ -112,14 +112,14 @@ impl Induction<'_, '_> {
 
     /// Returns the statement: each member is, or is near, its closed form, and so are the quantities computed
     /// from it.
-    fn says(&self) -> String {
+    fn conclusion(&self) -> String {
         if !self.sequence.is_perturbed() {
             return format!("forall n : nat, {}\n    {}", self.lets(), self.closed());
         }
-        let bound = |(of, bound): &(Tree, Tree)| {
+        let bounds = self.sequence.within.iter().map(|(of, bound)| {
             format_proposition(&Proposition::Within(of.clone(), bound.clone()), self.claim.printer)
-        };
-        let bounds: Vec<_> = self.sequence.within.iter().map(bound).collect();
+        });
+        let bounds: Vec<_> = bounds.collect();
         let (lets, computed) = (self.lets(), self.computed("    "));
         format!("forall n : nat, {lets}\n{computed}    {}", bounds.join(" /\\\n    "))
     }
@@ -132,60 +132,71 @@ impl Induction<'_, '_> {
     fn text(&self) -> Result<String> {
         let perturbed = self.sequence.is_perturbed();
         let invariants = self.claim.statement.invariants().iter();
-        let mut told: Vec<_> = invariants.map(|given| format_hypothesis(given, self.claim.printer)).collect();
-        told.extend((!perturbed).then(|| self.closed()));
-        let (labels, own) = (numbered_names("I", told.len()), self.claim.name.clone() + "_iterates");
+        let mut proved: Vec<_> =
+            invariants.map(|invariant| format_hypothesis(invariant, self.claim.printer)).collect();
+        proved.extend((!perturbed).then(|| self.closed()));
+        let labels = numbered_names("I", proved.len());
         let pattern = if labels.len() == 1 { labels[0].clone() } else { format!("({})", labels.join(" & ")) };
         let last = labels.last().ok_or("the claim has no statement about the sequence")?;
 
         let mut script = Script::new();
         script.line(&self.theorem.intros());
-        script.line(&format!("assert (I : forall n : nat, {} {}).", self.lets(), told.join(" /\\ ")));
+        script.line(&format!("assert (I : forall n : nat, {} {}).", self.lets(), proved.join(" /\\ ")));
         script.block("{", |script| {
-            script.line(&format!("induction n as [ | n {pattern}]; cbn [{own} pow]; cbv zeta in *;"));
+            let unfolded = format!("cbn [{}_iterates pow]; cbv zeta in *;", self.claim.name);
+            script.line(&format!("induction n as [ | n {pattern}]; {unfolded}"));
             script.line("  repeat apply conj.");
-            let pairs = |own: &mut Script, before: &str, role: Role| {
-                own.line(&format!("- {before} repeat apply (f_equal2 pair)."));
-                self.by(role).for_each(|lemma| own.line(&format!("  + exact ({lemma}).")));
-            };
-            self.by(Role::InvariantBase).for_each(|lemma| script.line(&format!("- exact ({lemma}).")));
+            self.prove_each(script, Role::InvariantBase);
             if !perturbed {
-                pairs(script, "symmetry.", Role::Claim);
+                self.prove_components(script, "symmetry.", Role::Claim);
             }
-            self.by(Role::InvariantStep).for_each(|lemma| script.line(&format!("- exact ({lemma}).")));
+            self.prove_each(script, Role::InvariantStep);
             if !perturbed {
-                pairs(script, &format!("rewrite {last}."), Role::Step);
+                self.prove_components(script, &format!("rewrite {last}."), Role::Step);
             }
             Ok(())
         })?;
         script.line(&format!("intro n. pose proof (I n) as {pattern}. cbv zeta. repeat apply conj."));
         script.line(&format!("- exact {last}."));
         if perturbed {
-            self.by(Role::Step).for_each(|lemma| script.line(&format!("- exact ({lemma}).")));
+            self.prove_each(&mut script, Role::Step);
         }
-        Ok(self.theorem.text("Theorem", &self.says(), script))
+        Ok(self.theorem.text("Theorem", &self.conclusion(), script))
+    }
+
+    /// Proves each conjunct by a lemma for a role.
+    fn prove_each(&self, script: &mut Script, role: Role) {
+        self.by(role).for_each(|lemma| script.line(&format!("- exact ({lemma}).")));
+    }
+
+    /// Proves an equation of members, component by component.
+    fn prove_components(&self, script: &mut Script, before: &str, role: Role) {
+        script.line(&format!("- {before} repeat apply (f_equal2 pair)."));
+        self.by(role).for_each(|lemma| script.line(&format!("  + exact ({lemma}).")));
     }
 
     /// Returns the applied lemmas for a role; in a step for ρⁿ, the n-th member, its invariants I1, I2, …,
     /// and the quantities computed from it.
     fn by(&self, role: Role) -> impl Iterator<Item = String> {
-        let own = move |(goal, _): &&(&Goal, Lemma)| goal.role == role;
-        let known =
-            if matches!(role, Role::Step | Role::InvariantStep) { self.known() } else { String::new() };
-        let all = self.lemmas.iter().filter(own);
-        all.map(move |(_, lemma)| format!("{known}{}", self.claim.applied(lemma, |given| self.label(given))))
+        let is_step = matches!(role, Role::Step | Role::InvariantStep);
+        let lets = if is_step { self.step_lets() } else { String::new() };
+        let lemmas = self.lemmas.iter().filter(move |(goal, _)| goal.role == role);
+        lemmas.map(move |(_, lemma)| {
+            format!("{lets}{}", self.claim.applied(lemma, |hypothesis| self.label(hypothesis)))
+        })
     }
 
-    fn known(&self) -> String {
+    /// Returns the definitions of ρⁿ, of the n-th member, and of the quantities computed from it.
+    fn step_lets(&self) -> String {
         let member = format!("let {} := {} in ", ascii(MEMBERS[0]), self.member());
         let member = if self.sequence.is_perturbed() { member } else { String::new() };
         let computed = self.lemmas.iter().filter(|(goal, _)| matches!(goal.role, Role::Computed(_)));
-        let computed = self.claim.computing(computed.map(|(_, lemma)| lemma), |given| self.label(given));
+        let computed = self.claim.computing(computed.map(|(_, lemma)| lemma), |h| self.label(h));
         format!("let {} := {} in {member}{computed}", ascii(POWER), self.power)
     }
 
-    fn label(&self, given: &Hypothesis) -> Option<String> {
-        let invariant = self.claim.statement.invariants().iter().position(|own| own == given);
-        invariant.map(|i| format!("I{}", i + 1)).or_else(|| self.theorem.label(given))
+    fn label(&self, hypothesis: &Hypothesis) -> Option<String> {
+        let i = self.claim.statement.invariants().iter().position(|invariant| invariant == hypothesis);
+        i.map(|i| format!("I{}", i + 1)).or_else(|| self.theorem.label(hypothesis))
     }
 }

@@ -17,7 +17,7 @@ pub(super) struct Lemma<'a> {
     pub(super) name: String,
     pub(super) printer: Printer<'a>,
     pub(super) variables: Vec<&'static str>,
-    pub(super) rounds: bool,
+    pub(super) contains_rounding: bool,
     hypotheses: Vec<&'a Hypothesis>,
 }
 
@@ -49,18 +49,25 @@ pub(super) fn format_hypothesis(hypothesis: &Hypothesis, printer: Printer) -> St
     }
 }
 
-pub(super) fn format_proposition(says: &Proposition, printer: Printer) -> String {
-    let of = |tree: &Tree| printer.expr(tree);
-    let under = |var: &str, tree: &Tree| format!("(fun {} => {})", ascii(var), of(tree));
-    match says {
-        Proposition::Equal(a, b) => format!("{} = {}", of(a), of(b)),
-        Proposition::Sign(relation, a) => of(a).relation(*relation),
-        Proposition::Within(a, bound) => format!("Rabs {} <= {}", of(a).argument(), of(bound)),
-        Proposition::Derivative(a, by, b) => {
-            format!("is_derive {}\n    {}\n    {}", under(by, a), ascii(by), of(b).argument())
+pub(super) fn format_proposition(proposition: &Proposition, printer: Printer) -> String {
+    match proposition {
+        Proposition::Equal(a, b) => format!("{} = {}", printer.expr(a), printer.expr(b)),
+        Proposition::Sign(relation, a) => printer.expr(a).relation(*relation),
+        Proposition::Within(a, bound) => {
+            format!("Rabs {} <= {}", printer.expr(a).argument(), printer.expr(bound))
         }
-        Proposition::Limit(a, by, b) => format!("is_lim {} p_infty {}", under(by, a), of(b).argument()),
+        Proposition::Derivative(a, by, b) => {
+            let (function, derivative) = (function_of(by, a, printer), printer.expr(b).argument());
+            format!("is_derive {function}\n    {}\n    {derivative}", ascii(by))
+        }
+        Proposition::Limit(a, by, b) => {
+            format!("is_lim {} p_infty {}", function_of(by, a, printer), printer.expr(b).argument())
+        }
     }
+}
+
+fn function_of(variable: &str, tree: &Tree, printer: Printer) -> String {
+    format!("(fun {} => {})", ascii(variable), printer.expr(tree))
 }
 
 /// Returns the divisors in formulas, except numbers, each after its own divisors.
@@ -87,11 +94,11 @@ pub(super) fn none_is_zero(divisors: &[Tree], printer: Printer) -> String {
 }
 
 impl<'a> Lemma<'a> {
-    /// Returns a lemma about formulas under hypotheses.
+    /// Returns a lemma for all values of the symbols in its hypotheses and in formulas.
     pub(super) fn new<'t>(
         name: String,
         printer: Printer<'a>,
-        rounds: bool,
+        contains_rounding: bool,
         hypotheses: Vec<&'a Hypothesis>,
         trees: impl Iterator<Item = &'t Tree>,
     ) -> Self
@@ -100,19 +107,19 @@ impl<'a> Lemma<'a> {
     {
         let values = hypotheses.iter().map(|h| &h.value);
         let mut variables = printer.registry.symbols_of(values.chain(trees));
-        if rounds && !variables.contains(&PRECISION) {
+        if contains_rounding && !variables.contains(&PRECISION) {
             variables.push(PRECISION);
         }
-        Lemma { name, printer, variables, hypotheses, rounds }
+        Lemma { name, printer, variables, hypotheses, contains_rounding }
     }
 
-    fn says_bits(&self, hypothesis: &Hypothesis) -> bool {
-        self.rounds && *hypothesis == minimum_precision()
+    fn is_minimum_precision(&self, hypothesis: &Hypothesis) -> bool {
+        self.contains_rounding && *hypothesis == minimum_precision()
     }
 
     /// Returns its hypotheses, except the minimum precision, which has another form in Coq.
     pub(super) fn hypotheses(&self) -> impl Iterator<Item = &'a Hypothesis> {
-        self.hypotheses.iter().copied().filter(|given| !self.says_bits(given))
+        self.hypotheses.iter().copied().filter(|given| !self.is_minimum_precision(given))
     }
 
     /// Returns all its hypotheses.
@@ -122,7 +129,7 @@ impl<'a> Lemma<'a> {
 
     /// Returns the label of a hypothesis in proofs: H1, H2, …, and M for the minimum precision.
     pub(super) fn label(&self, hypothesis: &Hypothesis) -> Option<String> {
-        if self.says_bits(hypothesis) {
+        if self.is_minimum_precision(hypothesis) {
             return Some("M".into());
         }
         self.hypotheses().position(|own| own == hypothesis).map(|i| format!("H{}", i + 1))
@@ -137,7 +144,7 @@ impl<'a> Lemma<'a> {
 
     /// Returns the powers of two in it other than 2ᵖ.
     fn scales(&self) -> impl Iterator<Item = &'static str> {
-        SCALES.into_iter().filter(|scale| self.rounds && self.variables.contains(scale))
+        SCALES.into_iter().filter(|scale| self.contains_rounding && self.variables.contains(scale))
     }
 
     fn exponents(&self) -> String {
@@ -149,7 +156,7 @@ impl<'a> Lemma<'a> {
     pub(super) fn intros(&self) -> String {
         let (variables, labels) = (names(&self.variables), numbered_names("H", self.hypotheses().count()));
         let labels = spaced(labels);
-        if self.rounds {
+        if self.contains_rounding {
             let (exponents, powers) = (self.exponents(), spaced(numbered_names("A", self.scales().count())));
             return format!("intros prec choice{exponents} P{variables} E{powers}{labels}.");
         }
@@ -159,27 +166,27 @@ impl<'a> Lemma<'a> {
 
     /// Returns lines that derive Q1, Q2, … from A1, A2, …: the powers of two are positive.
     pub(super) fn signs_of_scales(&self) -> Vec<String> {
-        let sign = |(scale, i)| {
+        let lines = self.scales().zip(1..).map(|(scale, i)| {
             let exponent = exponent(scale);
             format!("pose proof (bpow_gt_0 radix2 {exponent}) as Q{i}. rewrite <- A{i} in Q{i}.")
-        };
-        self.scales().zip(1..).map(sign).collect()
+        });
+        lines.collect()
     }
 
     /// Returns its name, applied to its variables and to the labels of its hypotheses.
     pub(super) fn applied(&self, label: impl Fn(&Hypothesis) -> String) -> String {
         let (variables, labels) = (names(&self.variables), spaced(self.hypotheses().map(label)));
         let name = &self.name;
-        if self.rounds {
+        if self.contains_rounding {
             return format!("{name} prec choice{} P{variables} E{labels}", self.exponents());
         }
         format!("{name}{variables}{labels}")
     }
 
     /// Returns its statement with a proof.
-    pub(super) fn text(&self, keyword: &str, says: &str, proof: Script) -> String {
+    pub(super) fn text(&self, keyword: &str, conclusion: &str, proof: Script) -> String {
         let (mut start, mut lines, mut powers) = (" ", Vec::new(), Vec::new());
-        if self.rounds {
+        if self.contains_rounding {
             let exponents = self.exponents();
             let exponents =
                 if exponents.is_empty() { exponents } else { format!(" ({} : Z)", &exponents[1..]) };
@@ -196,8 +203,8 @@ impl<'a> Lemma<'a> {
         }
         lines.extend(powers);
         lines.extend(self.hypotheses().map(|given| format!("{} ->", format_hypothesis(given, self.printer))));
-        lines.push(says.to_string());
-        let (name, says, proof) = (&self.name, lines.join("\n  "), proof.into_text());
-        format!("\n{keyword} {name} :{start}{says}.\nProof.\n{proof}Qed.\n")
+        lines.push(conclusion.to_string());
+        let (name, statement, proof) = (&self.name, lines.join("\n  "), proof.into_text());
+        format!("\n{keyword} {name} :{start}{statement}.\nProof.\n{proof}Qed.\n")
     }
 }

@@ -13,9 +13,9 @@ const TAKEN: [&str; 27] = [
 
 /// Returns the word, or another one if it is reserved. Proofs use letters with a number.
 pub(super) fn free(word: String) -> String {
-    let numbered = |rest: &str| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit());
-    let found = word.strip_prefix(|c: char| c == 's' || c.is_ascii_uppercase()).is_some_and(numbered);
-    if found || TAKEN.contains(&word.as_str()) { format!("{word}_") } else { word }
+    let number = word.strip_prefix(|c: char| c == 's' || c.is_ascii_uppercase()).unwrap_or_default();
+    let is_numbered = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
+    if is_numbered || TAKEN.contains(&word.as_str()) { format!("{word}_") } else { word }
 }
 
 /// Returns a symbol in ASCII letters: ε₄ is eps4, δu is du.
@@ -23,7 +23,11 @@ pub(super) fn ascii(symbol: &str) -> String {
     if symbol.is_ascii() && symbol != "H" {
         return free(symbol.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
     }
-    let letter = |c: char| match c {
+    symbol.chars().map(ascii_letters).collect()
+}
+
+fn ascii_letters(c: char) -> String {
+    match c {
         'ε' => "eps".to_string(),
         'λ' => "lambda".to_string(),
         'α' => "alpha".to_string(),
@@ -41,8 +45,7 @@ pub(super) fn ascii(symbol: &str) -> String {
         '₀'..='₉' => (u32::from(c) - u32::from('₀')).to_string(),
         c if c.is_ascii_alphanumeric() => c.to_string(),
         c => format!("u{:x}", u32::from(c)),
-    };
-    symbol.chars().map(letter).collect()
+    }
 }
 
 /// Returns the name of a function from its path: `lens::focus` is lens_focus.
@@ -52,20 +55,23 @@ pub(super) fn function(formula: &Formula) -> String {
 
 /// Returns a formula without the operations 0 x, 1 x and x + 0 that the rules of differentiation produce.
 pub(super) fn simplified(tree: &Tree) -> Tree {
-    let is = |tree: &Tree, n| *tree.op() == Op::Int(n);
     tree.rewrite(&|tree| {
         if !tree.site().is_in_dual_numbers() {
             return None;
         }
         match tree.op() {
-            Op::Add(a, b) if is(a, 0) => Some(b.clone()),
-            Op::Add(a, b) | Op::Sub(a, b) if is(b, 0) => Some(a.clone()),
-            Op::Mul(a, b) if is(a, 0) || is(b, 1) => Some(a.clone()),
-            Op::Mul(a, b) if is(b, 0) || is(a, 1) => Some(b.clone()),
-            Op::Div(a, _) | Op::Neg(a) if is(a, 0) => Some(a.clone()),
+            Op::Add(a, b) if is_int(a, 0) => Some(b.clone()),
+            Op::Add(a, b) | Op::Sub(a, b) if is_int(b, 0) => Some(a.clone()),
+            Op::Mul(a, b) if is_int(a, 0) || is_int(b, 1) => Some(a.clone()),
+            Op::Mul(a, b) if is_int(b, 0) || is_int(a, 1) => Some(b.clone()),
+            Op::Div(a, _) | Op::Neg(a) if is_int(a, 0) => Some(a.clone()),
             _ => None,
         }
     })
+}
+
+fn is_int(tree: &Tree, n: i32) -> bool {
+    *tree.op() == Op::Int(n)
 }
 
 /// Printer of formulas with the names of a registry's functions.
@@ -84,17 +90,20 @@ impl Printer<'_> {
 
     /// Returns a formula with calls of the registry's functions.
     pub(super) fn expr(self, tree: &Tree) -> Expr {
-        let place = |path: &str| self.preferred.iter().position(|known| *known == path);
-        let place = |path: &str| place(path).unwrap_or(self.preferred.len());
-        match self.registry.calls(tree).min_by_key(|call| place(call.formula.path)) {
+        match self.registry.calls(tree).min_by_key(|call| self.preference(call.formula)) {
             Some(call) => {
                 let common = self.registry.common_symbols(call.formula);
                 let arguments = call.arguments.iter().map(|argument| self.expr(argument));
                 let all = common.map(|name| Expr::Name(ascii(name))).chain(arguments).collect();
                 Expr::Call(function(call.formula), all)
             }
-            None => self.last_step(tree),
+            None => self.last_operation(tree),
         }
+    }
+
+    /// Returns the position of a function among the preferred ones; others follow.
+    fn preference(self, formula: &Formula) -> usize {
+        self.preferred.iter().position(|path| *path == formula.path).unwrap_or(self.preferred.len())
     }
 
     /// Returns the body of a function; its last operation is not replaced by a call unless the function only
@@ -103,25 +112,24 @@ impl Printer<'_> {
         if self.registry.delegated_call(formula).is_some() {
             self.expr(&formula.tree)
         } else {
-            self.last_step(&formula.tree)
+            self.last_operation(&formula.tree)
         }
     }
 
-    fn last_step(self, tree: &Tree) -> Expr {
+    fn last_operation(self, tree: &Tree) -> Expr {
         use Operator::*;
-        let of = |tree: &Tree| self.expr(tree);
         let expr = match tree.op() {
             Op::Symbol(name) => Expr::Name(ascii(name)),
             Op::Int(n) => Expr::int(*n),
-            Op::Neg(a) => of(a).negated(),
-            Op::Add(a, b) => Expr::binary(Add, of(a), of(b)),
-            Op::Sub(a, b) => Expr::binary(Sub, of(a), of(b)),
-            Op::Mul(a, b) => Expr::binary(Mul, of(a), of(b)),
-            Op::Div(a, b) => Expr::binary(Div, of(a), of(b)),
-            Op::Exp(a) => Expr::Call("exp".into(), vec![of(a)]),
-            Op::PositivePart(a) => Expr::Call("Rmax".into(), vec![of(a), Expr::int(0)]),
-            Op::Min(a, b) => Expr::Call("Rmin".into(), vec![of(a), of(b)]),
-            Op::Rounded(a) => Expr::Call("fl prec choice".into(), vec![of(a)]),
+            Op::Neg(a) => self.expr(a).negated(),
+            Op::Add(a, b) => Expr::binary(Add, self.expr(a), self.expr(b)),
+            Op::Sub(a, b) => Expr::binary(Sub, self.expr(a), self.expr(b)),
+            Op::Mul(a, b) => Expr::binary(Mul, self.expr(a), self.expr(b)),
+            Op::Div(a, b) => Expr::binary(Div, self.expr(a), self.expr(b)),
+            Op::Exp(a) => Expr::Call("exp".into(), vec![self.expr(a)]),
+            Op::PositivePart(a) => Expr::Call("Rmax".into(), vec![self.expr(a), Expr::int(0)]),
+            Op::Min(a, b) => Expr::Call("Rmin".into(), vec![self.expr(a), self.expr(b)]),
+            Op::Rounded(a) => Expr::Call("fl prec choice".into(), vec![self.expr(a)]),
         };
         // The rules of differentiation produce 0 x, 1 x and x + 0; only these are simplified.
         if tree.site().is_in_dual_numbers() { expr.simplified() } else { expr }

@@ -26,8 +26,8 @@ pub(super) struct Script {
     indent: usize,
 }
 
-/// A problem in Coq.
-struct Place<'p> {
+/// A problem to be proved in Coq.
+struct Subgoal<'p> {
     lemma: &'p Lemma<'p>,
     problem: &'p Problem<'p>,
     /// The labels of its hypotheses.
@@ -40,26 +40,27 @@ fn refused(reason: Refusal) -> String {
     format!("a proof that is refused: {reason:?}")
 }
 
-impl<'p> Place<'p> {
+impl<'p> Subgoal<'p> {
     fn new(lemma: &'p Lemma<'p>, problem: &'p Problem<'p>, labels: Vec<Option<String>>) -> Self {
         let is_smooth = matches!(problem.proposition, Proposition::Derivative(..));
         let tactic = if is_smooth { "auto_derive; derived" } else { "shown" };
-        Place { lemma, problem, labels, tactic }
+        Subgoal { lemma, problem, labels, tactic }
     }
 
-    /// Passes the problem of a proposition, as it is printed, to a writer.
-    fn with<'h>(
+    /// Calls `write` with the problem of a proposition whose formulas are simplified, as they are printed.
+    fn with(
         lemma: &Lemma,
-        hypotheses: &[&'h Hypothesis],
+        hypotheses: &[&Hypothesis],
         proposition: &Proposition,
-        write: impl FnOnce(Place) -> Result<()>,
+        write: impl FnOnce(Subgoal) -> Result<()>,
     ) -> Result<()> {
-        let is_printed =
-            |given: &&'h Hypothesis| Hypothesis { value: simplified(&given.value), ..(*given).clone() };
-        let printed: Vec<_> = hypotheses.iter().map(is_printed).collect();
+        let printed = hypotheses
+            .iter()
+            .map(|hypothesis| Hypothesis { value: simplified(&hypothesis.value), ..(*hypothesis).clone() });
+        let printed: Vec<_> = printed.collect();
         let proposition = proposition.map(&simplified);
         let problem = Problem::new(&proposition, printed.iter().collect()).map_err(refused)?;
-        write(Place::new(lemma, &problem, hypotheses.iter().map(|given| lemma.label(given)).collect()))
+        write(Subgoal::new(lemma, &problem, hypotheses.iter().map(|given| lemma.label(given)).collect()))
     }
 
     /// Returns the certificates for the problem.
@@ -107,8 +108,8 @@ impl<'p> Place<'p> {
         let scales: Vec<_> = scales.collect();
         self.problem.table.atoms().iter().enumerate().filter_map(move |(x, atom)| match atom {
             Atom::Own(name) => {
-                let place = scales.iter().position(|scale| scale == name)?;
-                Some((x, format!("Q{}", place + 1)))
+                let i = scales.iter().position(|scale| scale == name)?;
+                Some((x, format!("Q{}", i + 1)))
             }
             _ => Some((x, format!("B{x}"))),
         })
@@ -139,10 +140,10 @@ impl Script {
 
     /// Writes a subproof.
     pub(super) fn block(&mut self, bullet: &str, inside: impl FnOnce(&mut Self) -> Result<()>) -> Result<()> {
-        let mut own = Script { lines: String::new(), indent: self.indent + 1 };
-        inside(&mut own)?;
+        let mut block = Script { lines: String::new(), indent: self.indent + 1 };
+        inside(&mut block)?;
         let pad = " ".repeat(2 * self.indent);
-        let text = own.lines.trim_start();
+        let text = block.lines.trim_start();
         let end = if bullet == "{" { " }\n" } else { "\n" };
         let _ = write!(self.lines, "{pad}{bullet} {}{end}", text.trim_end());
         Ok(())
@@ -150,33 +151,36 @@ impl Script {
 
     /// Proves a proposition from the hypotheses of a lemma.
     pub(super) fn goal(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
-        Place::with(lemma, lemma.premises(), proposition, |place| self.problem(&place))
+        Subgoal::with(lemma, lemma.premises(), proposition, |subgoal| self.problem(&subgoal))
     }
 
     /// Proves that the left side of an equation is continuous in the variable of the goal.
     pub(super) fn continuity(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
         let tactic = "auto_derive; derived";
-        Place::with(lemma, lemma.premises(), proposition, |place| self.problem(&Place { tactic, ..place }))
+        Subgoal::with(lemma, lemma.premises(), proposition, |subgoal| {
+            self.problem(&Subgoal { tactic, ..subgoal })
+        })
     }
 
     /// Proves the proposition of a problem.
-    fn problem(&mut self, place: &Place) -> Result<()> {
-        let node = place.proof()?;
-        self.names(place, |_| true)?;
-        self.node(place, &node, &mut Vec::new())
+    fn problem(&mut self, subgoal: &Subgoal) -> Result<()> {
+        let node = subgoal.proof()?;
+        self.names(subgoal, |_| true)?;
+        self.node(subgoal, &node, &mut Vec::new())
     }
 
-    fn node(&mut self, place: &Place, node: &Node, cases: &mut Vec<(Polynomial, Sign)>) -> Result<()> {
+    fn node(&mut self, subgoal: &Subgoal, node: &Node, cases: &mut Vec<(Polynomial, Sign)>) -> Result<()> {
         match node {
-            Node::Leaf(leaf) => self.leaf(place, leaf, cases),
+            Node::Leaf(leaf) => self.leaf(subgoal, leaf, cases),
             Node::Cases(on, both) => {
                 let case = format!("C{}", cases.len() + 1);
-                let names = (0..place.problem.table.atoms().len()).map(|x| place.name(x)).collect::<Vec<_>>();
+                let names =
+                    (0..subgoal.problem.table.atoms().len()).map(|x| subgoal.name(x)).collect::<Vec<_>>();
                 let deciding = format!("value {} (polynomial {})", leaf::environment(&names), leaf::text(on));
                 self.line(&format!("destruct (either ({deciding})) as [{case} | {case}]."));
                 for (node, sign) in both.iter().zip([Sign::Positive, Sign::NonPositive]) {
                     cases.push((on.clone(), sign));
-                    self.block("{", |own| own.node(place, node, cases))?;
+                    self.block("{", |script| script.node(subgoal, node, cases))?;
                     cases.pop();
                 }
                 Ok(())
@@ -186,32 +190,32 @@ impl Script {
 
     /// Introduces the chosen atoms with what defines them: B1, B2, … are their signs or bounds, F1, F2, … their
     /// equations.
-    fn names(&mut self, place: &Place, is_chosen: impl Fn(usize) -> bool) -> Result<()> {
+    fn names(&mut self, subgoal: &Subgoal, is_chosen: impl Fn(usize) -> bool) -> Result<()> {
         let precision = ascii(PRECISION);
-        if place.lemma.rounds {
+        if subgoal.lemma.contains_rounding {
             self.line(&format!("pose proof (four_at_least prec {precision} P E) as N."));
             self.line(&format!("assert (M : 0 <= {precision} - 4) by lra."));
         }
         let before = self.lines.len();
-        for (x, atom) in place.problem.table.atoms().iter().enumerate().filter(|(x, _)| is_chosen(*x)) {
+        for (x, atom) in subgoal.problem.table.atoms().iter().enumerate().filter(|(x, _)| is_chosen(*x)) {
             let (rule, names) = match *atom {
                 Atom::Own(_) | Atom::Factor(_) => continue,
                 Atom::Error(of) => {
-                    let of = place.formula(of)?;
+                    let of = subgoal.formula(of)?;
                     (format!("model prec choice {precision} P E {of}"), format!("s{x} & B{x} & F{x}"))
                 }
                 Atom::IntervalParameter(i) => {
-                    let is_near = place.problem.hypotheses[i].distance().is_some();
+                    let is_near = subgoal.problem.hypotheses[i].distance().is_some();
                     let rule = if is_near { "near" } else { "between" };
-                    (format!("{rule} _ _ _ {}", place.label(i)?), format!("s{x} & B{x} & F{x}"))
+                    (format!("{rule} _ _ _ {}", subgoal.label(i)?), format!("s{x} & B{x} & F{x}"))
                 }
                 Atom::Size(of) => {
-                    let y = place.variable(Atom::Factor(of))?;
+                    let y = subgoal.variable(Atom::Factor(of))?;
                     let names = format!("s{x} & s{y} & B{x} & B{y} & F{x} & F{y}");
-                    (format!("absolute {}", place.formula(of)?), names)
+                    (format!("absolute {}", subgoal.formula(of)?), names)
                 }
                 Atom::Exponential(of) => {
-                    (format!("exponential {}", place.formula(of)?), format!("s{x} & B{x} & F{x}"))
+                    (format!("exponential {}", subgoal.formula(of)?), format!("s{x} & B{x} & F{x}"))
                 }
             };
             self.line(&format!("destruct ({rule}) as ({names})."));

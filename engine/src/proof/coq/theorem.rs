@@ -49,8 +49,8 @@ impl<'a> Claim<'a> {
         Ok(self.defined()? + &text)
     }
 
-    /// Returns a lemma about formulas under hypotheses.
-    pub(super) fn supposing<'t>(
+    /// Returns a lemma about formulas under hypotheses; its name begins with that of the claim.
+    pub(super) fn new_lemma<'t>(
         &self,
         name: &str,
         hypotheses: Vec<&'a Hypothesis>,
@@ -66,17 +66,21 @@ impl<'a> Claim<'a> {
     /// Returns the lemma of a goal, without hypotheses on a member and the quantity computed from it if the
     /// goal contains neither. Its name is that of the part, with a number if there are several.
     pub(super) fn lemma(&self, goal: &Goal) -> Lemma<'a> {
-        let computed = self.statement.computed();
-        let own = |name: &&str| *name == MEMBERS[0] || computed.iter().any(|own| own.symbol == *name);
-        let speaks_of_it = |tree: &Tree| tree.symbols().iter().any(own);
         let mut hypotheses = self.statement.hypotheses_for(goal.role);
-        if !goal.proposition.trees().into_iter().any(speaks_of_it) {
-            hypotheses.retain(|h| !speaks_of_it(&h.value));
+        if !goal.proposition.trees().into_iter().any(|tree| self.mentions_member(tree)) {
+            hypotheses.retain(|h| !self.mentions_member(&h.value));
         }
         let alike: Vec<_> = self.statement.goals().iter().filter(|other| other.part == goal.part).collect();
-        let place = alike.iter().position(|other| std::ptr::eq(*other, goal)).map_or(0, |place| place + 1);
-        let number = if alike.len() > 1 { place.to_string() } else { String::new() };
-        self.supposing(&format!("{} {number}", goal.part), hypotheses, goal.proposition.trees())
+        let index = alike.iter().position(|other| std::ptr::eq(*other, goal)).map_or(0, |index| index + 1);
+        let number = if alike.len() > 1 { index.to_string() } else { String::new() };
+        self.new_lemma(&format!("{} {number}", goal.part), hypotheses, goal.proposition.trees())
+    }
+
+    /// Returns `true` if a formula contains the first component of a member or a quantity computed from it.
+    fn mentions_member(&self, tree: &Tree) -> bool {
+        let computed = self.statement.computed();
+        let symbols = tree.symbols();
+        symbols.iter().any(|name| *name == MEMBERS[0] || computed.iter().any(|own| own.symbol == *name))
     }
 
     /// Returns a goal with its proof.
@@ -93,16 +97,15 @@ impl<'a> Claim<'a> {
             return Ok(String::new());
         }
         let symbols: Vec<_> = self.statement.computed().iter().map(|computed| computed.symbol).collect();
-        let is_computed = |divisor: &Tree| divisor.symbols().iter().any(|name| symbols.contains(name));
         // For roundings, nothing proved by induction is needed.
-        let hypotheses = if divisors.iter().any(is_computed) {
+        let hypotheses = if divisors.iter().flat_map(Tree::symbols).any(|name| symbols.contains(&name)) {
             self.statement.hypotheses_for(Role::Claim)
         } else if self.statement.contains_rounding() {
             self.statement.hypotheses_for(Role::InvariantBase)
         } else {
             self.statement.all_hypotheses().collect()
         };
-        let lemma = self.supposing("defined", hypotheses, &divisors);
+        let lemma = self.new_lemma("defined", hypotheses, &divisors);
         let mut script = Script::of(&lemma);
         script.line("repeat apply conj.");
         for divisor in &divisors {
@@ -113,67 +116,71 @@ impl<'a> Claim<'a> {
     }
 
     /// States the claim for the computed quantities, which lie in their intervals.
-    fn computed(&self, near: &[Goal], goal: &Goal) -> Result<String> {
-        let (are_near, mut rest) = (near.iter().map(|near| self.lemma(near)), self.lemma(goal));
-        let are_near: Vec<_> = are_near.collect();
-        rest.name += "_nearby";
-        let near = are_near.iter().zip(near).map(|(lemma, near)| self.with_proof("Lemma", lemma, near));
-        let text = near.collect::<Result<String>>()? + &self.with_proof("Lemma", &rest, goal)?;
+    fn computed(&self, intervals: &[Goal], goal: &Goal) -> Result<String> {
+        let lemmas: Vec<_> = intervals.iter().map(|interval| self.lemma(interval)).collect();
+        let mut main_lemma = self.lemma(goal);
+        main_lemma.name += "_nearby";
+        let proofs = lemmas.iter().zip(intervals).map(|(lemma, goal)| self.with_proof("Lemma", lemma, goal));
+        let text = proofs.collect::<Result<String>>()? + &self.with_proof("Lemma", &main_lemma, goal)?;
         let Proposition::Within(of, bound) = &goal.proposition else {
             return Err("a computed quantity in a claim other than a bound".into());
         };
-        let spelled_out = |tree: &Tree| {
+        let [of, bound] = [of, bound].map(|tree| {
             let last_first = self.statement.computed().iter().rev();
             last_first.fold(tree.clone(), |tree, own| tree.substitute(&[(own.symbol, own.formula.clone())]))
-        };
-        let [of, bound] = [of, bound].map(spelled_out);
-        let theorem = self.supposing("", self.statement.hypotheses_for(Role::InvariantBase), [&of, &bound]);
-        let label = |given: &Hypothesis| theorem.label(given);
-        let (computing, applied) = (self.computing(are_near.iter(), label), self.applied(&rest, label));
+        });
+        let theorem = self.new_lemma("", self.statement.hypotheses_for(Role::InvariantBase), [&of, &bound]);
+        let computing = self.computing(lemmas.iter(), |hypothesis| theorem.label(hypothesis));
+        let applied = self.applied(&main_lemma, |hypothesis| theorem.label(hypothesis));
         let mut script = Script::new();
         script.line(&theorem.intros());
         script.line(&format!("exact ({computing}{applied})."));
-        let says = format_proposition(&Proposition::Within(of, bound), self.printer);
-        Ok(text + &theorem.text("Theorem", &says, script))
+        let conclusion = format_proposition(&Proposition::Within(of, bound), self.printer);
+        Ok(text + &theorem.text("Theorem", &conclusion, script))
     }
 
     /// Returns `let u := FORMULA in let N1 := INTERVAL in`: the computed quantities, with the lemmas that
     /// place them in their intervals.
     pub(super) fn computing<'l>(
         &self,
-        near: impl Iterator<Item = &'l Lemma<'l>>,
+        lemmas: impl Iterator<Item = &'l Lemma<'l>>,
         label: impl Fn(&Hypothesis) -> Option<String>,
     ) -> String {
-        let all = self.statement.computed().iter().zip(near).zip(1..);
-        let lets = all.map(|((computed, near), i)| {
+        let all = self.statement.computed().iter().zip(lemmas).zip(1..);
+        let lets = all.map(|((computed, lemma), i)| {
             let (name, by) = (ascii(computed.symbol), self.printer.expr(&computed.formula));
-            format!("let {name} := {by} in let N{i} := {} in ", self.applied(near, &label))
+            format!("let {name} := {by} in let N{i} := {} in ", self.applied(lemma, &label))
         });
         lets.collect()
     }
 
     /// Applies a lemma to labels of hypotheses, and to N1, N2, … for the intervals of computed quantities.
     pub(super) fn applied(&self, lemma: &Lemma, label: impl Fn(&Hypothesis) -> Option<String>) -> String {
-        let place =
-            |given: &Hypothesis| self.statement.computed().iter().position(|own| own.hypothesis == *given);
-        let near = |given: &Hypothesis| Some(format!("N{}", place(given)? + 1));
-        lemma.applied(|given| near(given).or_else(|| label(given)).unwrap_or_default())
+        lemma.applied(|hypothesis| {
+            let mut intervals = self.statement.computed().iter().map(|computed| &computed.hypothesis);
+            match intervals.position(|interval| interval == hypothesis) {
+                Some(i) => format!("N{}", i + 1),
+                None => label(hypothesis).unwrap_or_default(),
+            }
+        })
     }
 
-    /// States the limit; lemmas contain its rate.
+    /// States a limit, and its rate in lemmas.
     fn limit(&self, by: &'static str, goal: &Goal, rates: &[Goal]) -> Result<String> {
-        let all = self.statement.hypotheses_for(Role::Claim);
-        let tends = |keyword: &str, name: &str, of: &Proposition| {
-            let lemma = self.supposing(name, all.clone(), of.trees()).without(by);
-            let mut script = Script::of(&lemma);
-            script.limit(&lemma, &all, of)?;
-            Ok(lemma.text(keyword, &format_proposition(of, self.printer), script))
-        };
         let rates = rates.iter().map(|rate| match &rate.proposition {
-            of @ Proposition::Limit(..) => tends("Lemma", rate.part, of),
+            limit @ Proposition::Limit(..) => self.limit_with_proof("Lemma", rate.part, by, limit),
             _ => self.with_proof("Lemma", &self.lemma(rate), rate),
         });
-        Ok(rates.collect::<Result<String>>()? + &tends("Theorem", "", &goal.proposition)?)
+        Ok(rates.collect::<Result<String>>()?
+            + &self.limit_with_proof("Theorem", "", by, &goal.proposition)?)
+    }
+
+    fn limit_with_proof(&self, keyword: &str, name: &str, by: &str, limit: &Proposition) -> Result<String> {
+        let hypotheses = self.statement.hypotheses_for(Role::Claim);
+        let lemma = self.new_lemma(name, hypotheses.clone(), limit.trees()).without(by);
+        let mut script = Script::of(&lemma);
+        script.limit(&lemma, &hypotheses, limit)?;
+        Ok(lemma.text(keyword, &format_proposition(limit, self.printer), script))
     }
 
     /// States the limit of a formula of powers of a ratio less than 1 in absolute value.
@@ -185,22 +192,23 @@ impl<'a> Claim<'a> {
         let text =
             self.with_proof("Lemma", &small, &goals[0])? + &self.with_proof("Lemma", &limit, at_zero)?;
         let hypotheses = self.statement.hypotheses_for(Role::Claim);
-        let theorem = self.supposing("", hypotheses, [ratio, &member[0], to]).without(POWER);
+        let theorem = self.new_lemma("", hypotheses, [ratio, &member[0], to]).without(POWER);
         let [ratio, of, to] = [ratio, &member[0], to].map(|tree| self.printer.expr(tree));
         let (name, power) = (ascii(POWER), Expr::name(format!("({} ^ n)", ratio.base())));
-        let exact =
-            |lemma: &Lemma| format!("- exact ({}).", self.applied(lemma, |given| theorem.label(given)));
+        let [small_proof, limit_proof] = [&small, &limit].map(|lemma| {
+            format!("- exact ({}).", self.applied(lemma, |hypothesis| theorem.label(hypothesis)))
+        });
         let mut script = Script::new();
         script.line(&theorem.intros());
         script.line(&format!("apply (limit_of_powers (fun {name} => {of}) {}).", ratio.argument()));
-        script.line(&exact(&small));
+        script.line(&small_proof);
         // Continuity there has the same hypotheses.
-        script.block("-", |own| {
-            own.line("functions.");
-            own.continuity(&limit, &at_zero.proposition)
+        script.block("-", |script| {
+            script.line("functions.");
+            script.continuity(&limit, &at_zero.proposition)
         })?;
-        script.line(&exact(&limit));
-        let says = format!("is_lim_seq (fun n => {}) {}", of.substitute(&name, &power), to.argument());
-        Ok(text + &theorem.text("Theorem", &says, script))
+        script.line(&limit_proof);
+        let conclusion = format!("is_lim_seq (fun n => {}) {}", of.substitute(&name, &power), to.argument());
+        Ok(text + &theorem.text("Theorem", &conclusion, script))
     }
 }

@@ -22,10 +22,9 @@ pub(super) struct Order<'a> {
 
 impl Order<'_> {
     fn product(&self, monomial: &Monomial) -> Option<Tree> {
-        let named = |(x, n)| Some((self.context.symbol(x)?, n));
-        let mut powers: Vec<(Symbol, u8)> = monomial.powers().filter_map(named).collect();
-        let place = |x: Symbol| self.factors.iter().position(|name| Symbol::Own(name) == x);
-        powers.sort_by_key(|(x, _)| (place(*x), *x));
+        let powers = monomial.powers().filter_map(|(x, n)| Some((self.context.symbol(x)?, n)));
+        let mut powers: Vec<_> = powers.collect();
+        powers.sort_by_key(|(x, _)| (self.factors.iter().position(|name| Symbol::Own(name) == *x), *x));
         let powers =
             powers.into_iter().flat_map(|(x, n)| std::iter::repeat_n(Tree::symbol(x.name()), n.into()));
         powers.chain(monomial.exponent().map(|e| self.ratio(e).exp())).reduce(|a, b| a * b)
@@ -81,15 +80,18 @@ impl Order<'_> {
         }
     }
 
+    fn sign(&self, of: &Poly) -> Option<Sign> {
+        choice::sign(of, &self.context.signs).map(|found| found.sign())
+    }
+
     /// Returns the terms of a quotient that are not known to have the sign of its denominator, if there are
     /// one or two and not all: `: the term −b is < 0`.
     fn obstacles(&self, value: &Ratio) -> String {
-        let sign = |part: &Poly| choice::sign(part, &self.context.signs).map(|found| found.sign());
-        let Some(den) = sign(value.den()) else { return String::new() };
+        let Some(den) = self.sign(value.den()) else { return String::new() };
         let terms = value.num().terms().map(|(m, q)| Poly::from_iter([(m.clone(), q.clone())]));
-        let with_signs = terms.map(|term| (sign(&term), term));
-        let fits = |sign: &Option<Sign>| sign.is_some_and(|s| s.times(den).implies(Sign::NonNegative));
-        let (fitting, others): (Vec<_>, Vec<_>) = with_signs.partition(|(sign, _)| fits(sign));
+        let with_signs = terms.map(|term| (self.sign(&term), term));
+        let (fitting, others): (Vec<_>, Vec<_>) = with_signs
+            .partition(|(sign, _)| sign.is_some_and(|sign| sign.times(den).implies(Sign::NonNegative)));
         if fitting.is_empty() || others.len() > 2 {
             return String::new();
         }
@@ -107,7 +109,6 @@ pub(super) fn justify(
     formula: &dyn Fn(&Tree) -> String,
     factors: &[&'static str],
 ) -> String {
-    let ratio = |of: &Quantity| Order { context: &of.context, factors }.ratio_or_size(&of.value);
     match reason {
         ProofError::Premise(premise) => premise.to_string(),
         ProofError::PossibleZeroDivisor(of, value) if value.value.is_zero() => {
@@ -115,22 +116,29 @@ pub(super) fn justify(
         }
         ProofError::PossibleZeroDivisor(of, value) => {
             let is_as_written = value.symbols().into_iter().map(Symbol::name).eq(of.symbols());
-            let reduced = if is_as_written { String::new() } else { format!(" = {}", ratio(value)) };
+            let reduced = if is_as_written { String::new() } else { format!(" = {}", value.format(factors)) };
             format!("the divisor {}{reduced} might be 0", formula(of))
         }
         ProofError::UndecidedBranch(value) => {
-            format!("the sign of {} is undecided", ratio(value))
+            format!("the sign of {} is undecided", value.format(factors))
         }
         ProofError::UnknownSign(value) => {
             let order = Order { context: &value.context, factors };
-            format!("no rule finds the sign of {}{}", ratio(value), order.obstacles(&value.value))
+            format!("no rule finds the sign of {}{}", value.format(factors), order.obstacles(&value.value))
         }
-        ProofError::WrongSign(value, sign) => format!("{} is {}", ratio(value), sign_text(*sign)),
-        ProofError::Unequal(value) => format!("the sides differ by {}", ratio(value)),
-        ProofError::UnknownLimit(value) => format!("no rule finds the limit of {}", ratio(value)),
+        ProofError::WrongSign(value, sign) => format!("{} is {}", value.format(factors), sign_text(*sign)),
+        ProofError::Unequal(value) => format!("the sides differ by {}", value.format(factors)),
+        ProofError::UnknownLimit(value) => format!("no rule finds the limit of {}", value.format(factors)),
         ProofError::NotDifferentiable => "⟨·⟩ and min are not differentiable at kinks".to_string(),
         ProofError::TooLarge(most) => format!("its proof exceeds the limit of {most} terms"),
         ProofError::NotExpressed(reason) => format!("its proof cannot be checked: {reason}"),
+    }
+}
+
+impl Quantity {
+    /// Formats the value with this order of factors.
+    fn format(&self, factors: &[&'static str]) -> String {
+        Order { context: &self.context, factors }.ratio_or_size(&self.value)
     }
 }
 

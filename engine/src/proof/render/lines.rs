@@ -62,39 +62,27 @@ struct End<'a> {
 impl<'a> Lines<'a> {
     /// Returns a writer for a goal.
     pub(super) fn new(printer: &'a ProofPrinter<'a>, problem: &'a Problem<'a>) -> Self {
-        let atoms = problem.table.atoms().iter();
-        let formula = |of: &usize| problem.table.formula(*of).cloned().unwrap_or_else(|_| Tree::from(0));
-        let (mut errors, mut places) = (0.., 0..);
-        let atoms = atoms.map(|atom| match atom {
-            Atom::Own(name) => Tree::symbol(name),
-            Atom::Error(_) => Tree::symbol(subscripted('e', errors.next().unwrap_or_default())),
-            Atom::IntervalParameter(_) | Atom::Factor(_) => {
-                Tree::symbol(subscripted('t', places.next().unwrap_or_default()))
-            }
-            Atom::Size(of) => formula(of).abs(),
-            Atom::Exponential(of) => formula(of).exp(),
-        });
         let mut reader = reread(State::new(problem));
         let formulas = (0..).map_while(|i| Some((i, problem.table.formula(i).ok()?)));
-        let has_name = |(_, tree): &(usize, &Tree)| printer.registry.call_name(tree).is_some();
-        let named = formulas.filter(has_name).filter_map(|(i, tree)| {
+        let named = formulas.filter(|(_, tree)| printer.registry.call_name(tree).is_some());
+        let named = named.filter_map(|(i, tree)| {
             let value =
                 reader.value(i).ok().filter(|value| value.den.is_empty() && value.num.terms().len() > 1)?;
             Some((value.num, tree.clone()))
         });
-        Lines { printer, problem, atoms: atoms.collect(), named: named.collect() }
+        Lines { printer, problem, atoms: formulas_of_atoms(problem), named: named.collect() }
     }
 
     /// Describes the atoms.
     #[cfg(feature = "serde")]
     pub(super) fn descriptions(&self) -> Vec<String> {
-        let described = self.atoms.iter().zip(self.problem.table.atoms()).map(|(own, atom)| match atom {
-            Atom::Own(_) | Atom::Size(_) | Atom::Exponential(_) => self.text(own),
-            Atom::Error(of) => format!("{own}: {}({})", self.rounding(*of), self.formula(*of)),
-            Atom::Factor(of) => format!("{own}: {0} = {own} |{0}|", self.formula(*of)),
+        let described = self.atoms.iter().zip(self.problem.table.atoms()).map(|(tree, atom)| match atom {
+            Atom::Own(_) | Atom::Size(_) | Atom::Exponential(_) => self.text(tree),
+            Atom::Error(of) => format!("{tree}: {}({})", self.rounding(*of), self.formula(*of)),
+            Atom::Factor(of) => format!("{tree}: {0} = {tree} |{0}|", self.formula(*of)),
             Atom::IntervalParameter(i) => {
-                let name = self.printer.registry.format_hypothesis(self.problem.hypotheses[*i]);
-                format!("{own}: from −1 to 1 in {name}")
+                let interval = self.printer.registry.format_hypothesis(self.problem.hypotheses[*i]);
+                format!("{tree}: from −1 to 1 in {interval}")
             }
         });
         described.collect()
@@ -112,8 +100,8 @@ impl<'a> Lines<'a> {
             cases.pop();
             lines
         });
-        let is_common = |(a, b): &(&String, &String)| a == b && !a.starts_with("case ");
-        let common = first.iter().zip(&second).take_while(is_common).count();
+        let pairs = first.iter().zip(&second);
+        let common = pairs.take_while(|(a, b)| a == b && !a.starts_with("case ")).count();
         let mut lines = first[..common].to_vec();
         let name = self.text(&self.case(on, cases));
         let defined = match on.terms().len() {
@@ -130,9 +118,10 @@ impl<'a> Lines<'a> {
 
     /// Returns the quantity that distinguishes cases after others; a long one has a name.
     fn case(&self, on: &Polynomial, before: &[(Polynomial, Sign)]) -> Tree {
-        let named = || before.iter().filter(|(on, _)| self.is_long_case(on)).count();
-        let name = || Tree::symbol(subscripted('s', u8::try_from(named()).unwrap_or(u8::MAX)));
-        self.short(on).filter(|_| !self.is_long_case(on)).unwrap_or_else(name)
+        self.short(on).filter(|_| !self.is_long_case(on)).unwrap_or_else(|| {
+            let named = before.iter().filter(|(on, _)| self.is_long_case(on)).count();
+            Tree::symbol(subscripted('s', u8::try_from(named).unwrap_or(u8::MAX)))
+        })
     }
 
     fn is_long_case(&self, on: &Polynomial) -> bool {
@@ -157,18 +146,18 @@ impl<'a> Lines<'a> {
     fn leaf(&self, leaf: &Leaf, cases: &Cases) -> Vec<String> {
         let Ok((state, steps)) = trace(self.problem, leaf, cases) else { return Vec::new() };
         let goal = self.problem.proposition;
-        // What was translated before is translated again without the help of a proof.
+        // Formulas that were translated are translated again without the help of a proof.
         let mut written = Vec::new();
         let mut reader = reread(state);
         for (i, fact) in reader.state.assumed.clone() {
-            if let Some(given) = i.map(|i| self.problem.hypotheses[i])
-                && let Ok(value) = reader.translate(&given.value)
+            if let Some(hypothesis) = i.map(|i| self.problem.hypotheses[i])
+                && let Ok(value) = reader.translate(&hypothesis.value)
                 && reader.state.facts.get(fact).is_ok_and(|(of, _)| value == of.clone().into())
             {
-                written.push((fact, given.value.clone()));
+                written.push((fact, hypothesis.value.clone()));
             }
         }
-        let facts_of_cases = reader.state.assumed.iter().filter(|(given, _)| given.is_none());
+        let facts_of_cases = reader.state.assumed.iter().filter(|(hypothesis, _)| hypothesis.is_none());
         let names = cases.iter().enumerate().map(|(depth, (on, _))| self.case(on, &cases[..depth]));
         written.extend(facts_of_cases.map(|(_, fact)| *fact).zip(names));
         let decisions = self.decisions(leaf, &mut reader);
@@ -181,7 +170,7 @@ impl<'a> Lines<'a> {
         let last = steps.len().saturating_sub(if matches!(goal, Proposition::Within(..)) { 2 } else { 1 });
         let (before, of_goal) = steps.split_at(last);
         let mut lines: Vec<_> = end.errors().into_iter().collect();
-        lines.extend(leaf.hypotheses.iter().filter_map(|i| self.place(*i)));
+        lines.extend(leaf.hypotheses.iter().filter_map(|i| self.interval(*i)));
         lines.extend(leaf.rises.iter().flat_map(|rise| end.rise(rise)));
         lines.extend(end.steps(before));
         lines.extend(end.goal(of_goal, &values, !leaf.orders.is_empty()));
@@ -223,20 +212,26 @@ impl<'a> Lines<'a> {
     }
 
     /// Returns the use of an interval.
-    fn place(&self, i: usize) -> Option<String> {
-        let given = *self.problem.hypotheses.get(i)?;
-        let (x, lower, upper) = given.interval()?;
-        let place = &self.atoms[self.problem.table.variable(Atom::IntervalParameter(i)).ok()?];
-        let by = format!("by {}: ", self.printer.registry.format_hypothesis(given));
+    fn interval(&self, i: usize) -> Option<String> {
+        let hypothesis = *self.problem.hypotheses.get(i)?;
+        let (x, lower, upper) = hypothesis.interval()?;
+        let parameter = &self.atoms[self.problem.table.variable(Atom::IntervalParameter(i)).ok()?];
+        let by = format!("by {}: ", self.printer.registry.format_hypothesis(hypothesis));
         let [lower, upper] = [lower, upper].map(|end| self.text(end));
-        let distance = given.distance();
+        let distance = hypothesis.distance();
         Some(match distance.as_ref().map(|(distance, most)| (distance.op(), *most)) {
             Some((Op::Sub(_, middle), most)) => {
-                let value = self.text(&(middle + place * most));
-                format!("{by}{x} = {value} with |{place}| ≤ 1")
+                let value = self.text(&(middle + parameter * most));
+                format!("{by}{x} = {value} with |{parameter}| ≤ 1")
             }
-            _ => format!("{by}{place} goes from −1 to 1 as {x} goes from {lower} to {upper}"),
+            _ => format!("{by}{parameter} goes from −1 to 1 as {x} goes from {lower} to {upper}"),
         })
+    }
+
+    /// Returns `true` for an exponential that depends on the variable of a limit.
+    fn is_decaying(&self, x: usize, by: &str) -> bool {
+        let atom = self.problem.table.atoms().get(x);
+        matches!(atom, Some(Atom::Exponential(_))) && self.problem.depends(x, by)
     }
 
     fn text(&self, tree: &Tree) -> String {
@@ -259,23 +254,22 @@ impl<'a> Lines<'a> {
             return None;
         }
         let order = self.printer.registry.factors();
-        let place = |tree: &&Tree| match tree.op() {
-            Op::Symbol(name) => (order.iter().position(|own| own == name), *name),
-            _ => (Some(order.len()), ""),
-        };
         let terms: Vec<_> = form.terms().collect();
         Some(sum(terms.into_iter().rev().map(|(powers, n)| {
             let factors = self.atoms.iter().chain(known).zip(powers);
             let mut factors: Vec<_> =
                 factors.flat_map(|(factor, n)| std::iter::repeat_n(factor, usize::from(*n))).collect();
-            factors.sort_by_key(place);
+            factors.sort_by_key(|factor| match factor.op() {
+                Op::Symbol(name) => (order.iter().position(|symbol| symbol == name), *name),
+                _ => (Some(order.len()), ""),
+            });
             let size = number(&n.unsigned_abs().into());
             let product = factors.into_iter().cloned().reduce(|a, b| a * b);
             (*n < 0, product.map_or(size.clone(), |product| size * product))
         })))
     }
 
-    /// Returns a quantity as a factor: a reserved symbol for a sum, which is not to be merged with others.
+    /// Returns a quantity as a factor; a reserved symbol stands for a sum, so that it is not merged with others.
     fn factor(&self, tree: &Tree, sums: &mut Vec<String>) -> Tree {
         match tree.op() {
             Op::Neg(negated) => -self.factor(negated, sums),
@@ -309,12 +303,12 @@ impl End<'_> {
                 None => all.push((rounded.error, vec![text])),
             }
         }
-        let all: Vec<_> = all
-            .into_iter()
-            .map(|(error, of)| format!("{} of {}", self.goal.atoms[error], of.join(" and ")))
-            .collect();
-        let model = || format!("fl(…) = … (1 + eᵢ / ({PRECISION} + 1)) with |eᵢ| ≤ 1: ");
-        (!all.is_empty()).then(|| model() + &all.join(", "))
+        if all.is_empty() {
+            return None;
+        }
+        let errors = all.into_iter().map(|(x, of)| format!("{} of {}", self.goal.atoms[x], of.join(" and ")));
+        let errors = errors.collect::<Vec<_>>().join(", ");
+        Some(format!("fl(…) = … (1 + eᵢ / ({PRECISION} + 1)) with |eᵢ| ≤ 1: {errors}"))
     }
 
     /// Returns the lines about the steps before the goal.
@@ -325,38 +319,41 @@ impl End<'_> {
                 Step::Divisor(factors) => divisors = factors.len(),
                 Step::Rounding(..) => {}
                 Step::Size(of, _, AbsoluteValue::Atom) => {
-                    let equation = self.equation_of_size(*of);
-                    lines
-                        .extend(equation.map(|(equation, factor)| format!("{equation} with |{factor}| ≤ 1")));
+                    let size = self.equation_of_size(*of);
+                    lines.extend(size.map(|(equation, factor)| format!("{equation} with |{factor}| ≤ 1")));
                 }
                 Step::Size(..) => {}
                 Step::Sign { of, den, reason, .. } => {
                     let value = Quotient { num: of.clone(), den: den.clone() };
-                    let decided = self.decisions.iter().find(|(decides, _)| *decides == value);
-                    let mut own = self.sign("", of, den, reason);
-                    let is_divisor = divisors > 0;
-                    let last = own.pop().filter(|_| !of.is_zero());
-                    own.extend(match (decided, last) {
-                        (Some((_, follows)), _)
-                            if lines.iter().any(|line: &String| line.starts_with(follows)) =>
-                        {
-                            None
-                        }
-                        (Some((_, follows)), Some(last)) if !is_divisor => {
-                            Some(format!("{follows}, since {last}"))
-                        }
-                        (Some((_, follows)), None) if !is_divisor => Some(follows.clone()),
-                        (_, last) => last.filter(|_| !self.is_plain(of)).map(|last| match is_divisor {
-                            true => format!("divisor {last}"),
-                            false => last,
-                        }),
-                    });
-                    own.retain(|line| !lines.contains(line));
-                    lines.extend(own);
+                    lines.extend(self.step_of_sign(&value, reason, divisors > 0, &lines));
                     divisors = divisors.saturating_sub(1);
                 }
             }
         }
+        lines
+    }
+
+    /// Returns the lines about the sign of a numerator, except earlier ones.
+    fn step_of_sign(
+        &self,
+        value: &Quotient,
+        reason: &Reason,
+        is_divisor: bool,
+        earlier: &[String],
+    ) -> Vec<String> {
+        let mut lines = self.sign("", &value.num, &value.den, reason);
+        let last = lines.pop().filter(|_| !value.num.is_zero());
+        let decision = self.decisions.iter().find(|(decides, _)| decides == value);
+        lines.extend(match (decision, last) {
+            (Some((_, follows)), _) if earlier.iter().any(|line| line.starts_with(follows)) => None,
+            (Some((_, follows)), Some(last)) if !is_divisor => Some(format!("{follows}, since {last}")),
+            (Some((_, follows)), None) if !is_divisor => Some(follows.clone()),
+            (_, last) => last.filter(|_| !self.is_plain(&value.num)).map(|last| match is_divisor {
+                true => format!("divisor {last}"),
+                false => last,
+            }),
+        });
+        lines.retain(|line| !earlier.contains(line));
         lines
     }
 
@@ -372,14 +369,14 @@ impl End<'_> {
         let names = [format!("at {x} = 0"), "slope".to_string()];
         for (((proposition, assumed), node), name) in parts.iter().zip(&rise.parts).skip(1).zip(names) {
             let others = problem.hypotheses.iter().copied();
-            let others = others.filter(|given| !given.value.symbols().contains(x)).chain(assumed);
+            let others = others.filter(|other| !other.value.symbols().contains(x)).chain(assumed);
             let Ok(part) = Problem::new(proposition, others.collect()) else { continue };
-            let own = Lines::new(self.goal.printer, &part).node(node, &mut Vec::new());
-            match &own[..] {
-                [only] => lines.push(format!("  {name}: {only}")),
+            let part_lines = Lines::new(self.goal.printer, &part).node(node, &mut Vec::new());
+            match &part_lines[..] {
+                [line] => lines.push(format!("  {name}: {line}")),
                 _ => {
                     lines.push(format!("  {name}:"));
-                    lines.extend(indented(indented(own)));
+                    lines.extend(indented(indented(part_lines)));
                 }
             }
         }
@@ -388,8 +385,9 @@ impl End<'_> {
 
     /// Returns `true` for a variable, for a number, and for 2ᵖ + 1.
     fn is_plain(&self, of: &Polynomial) -> bool {
-        let names = |x| matches!(self.goal.problem.table.atoms().get(x), Some(Atom::Own(PRECISION)));
-        of.terms().len() <= 1 || (of.has_only(names) && of.terms().all(|(_, n)| *n > 0))
+        let atoms = self.goal.problem.table.atoms();
+        let is_in_precision = of.has_only(|x| matches!(atoms.get(x), Some(Atom::Own(PRECISION))));
+        of.terms().len() <= 1 || (is_in_precision && of.terms().all(|(_, n)| *n > 0))
     }
 
     /// Returns the lines about the goal.
@@ -404,12 +402,7 @@ impl End<'_> {
             let Step::Sign { of, den, reason, .. } = step else { continue };
             match (self.goal.problem.proposition, values) {
                 (Proposition::Limit(_, by, _), [Some(of), Some(to)]) => {
-                    let Problem { table, .. } = self.goal.problem;
-                    let decays = |x: usize| {
-                        matches!(table.atoms().get(x), Some(Atom::Exponential(_)))
-                            && self.goal.problem.depends(x, by)
-                    };
-                    let has_decay = !of.num.has_only(|x| !decays(x));
+                    let has_decay = !of.num.has_only(|x| !self.goal.is_decaying(x, by));
                     let decay = if has_decay { ", as its exponentials decay" } else { "" };
                     let (of, to) = (self.quotient(of), self.quotient(to));
                     lines.push(format!("it is {of}, which tends to {to} by its degrees in {by}{decay}"));
@@ -435,6 +428,21 @@ impl End<'_> {
         }
         lines
     }
+}
+
+/// Returns the atoms as formulas; e₁, e₂, … are errors, and t₁, t₂, … interval parameters and factors.
+fn formulas_of_atoms(problem: &Problem) -> Vec<Tree> {
+    let (mut errors, mut parameters) = (0.., 0..);
+    let atoms = problem.table.atoms().iter().map(|atom| match atom {
+        Atom::Own(name) => Tree::symbol(name),
+        Atom::Error(_) => Tree::symbol(subscripted('e', errors.next().unwrap_or_default())),
+        Atom::IntervalParameter(_) | Atom::Factor(_) => {
+            Tree::symbol(subscripted('t', parameters.next().unwrap_or_default()))
+        }
+        Atom::Size(of) => problem.table.formula(*of).map_or_else(|_| Tree::from(0), Tree::abs),
+        Atom::Exponential(of) => problem.table.formula(*of).map_or_else(|_| Tree::from(0), Tree::exp),
+    });
+    atoms.collect()
 }
 
 fn indented(lines: impl IntoIterator<Item = String>) -> impl Iterator<Item = String> {

@@ -20,12 +20,12 @@ impl ProofPrinter<'_> {
         if let Some(registry) = self.other_names(statement) {
             return ProofPrinter::new(&registry).describe(statement, reason);
         }
-        let said = justify(reason, &|tree| self.text(tree), self.registry.factors());
+        let message = justify(reason, &|tree| self.text(tree), self.registry.factors());
         let mut definitions = Vec::new();
         let quantity = reason.quantity();
         for (of, symbol) in quantity.into_iter().flat_map(|of| of.symbols().into_iter().map(move |x| (of, x)))
         {
-            if !said.contains(symbol.name()) {
+            if !message.contains(symbol.name()) {
                 continue;
             }
             match symbol {
@@ -35,12 +35,18 @@ impl ProofPrinter<'_> {
                     definitions.extend(rounded.map(|of| self.error(symbol.name(), of)));
                 }
                 Symbol::Slack(_) | Symbol::IntervalParameter(_) => {
-                    let of_case = || format!("{} ≥ 0 in one case of the proof", symbol.name());
-                    definitions.push(self.definition(symbol, &of.context).unwrap_or_else(of_case));
+                    let definition = self.definition(symbol, &of.context);
+                    definitions.push(
+                        definition
+                            .unwrap_or_else(|| format!("{} ≥ 0 in one case of the proof", symbol.name())),
+                    );
                 }
             }
         }
-        if definitions.is_empty() { said } else { format!("{said}, where {}", definitions.join(" and ")) }
+        if definitions.is_empty() {
+            return message;
+        }
+        format!("{message}, where {}", definitions.join(" and "))
     }
 
     /// Returns the reason why a proof failed, and up to three [hypotheses](sufficient_hypothesis) with
@@ -77,21 +83,20 @@ impl ProofPrinter<'_> {
     /// Returns the definition of a symbol that an assumption introduces, unless the assumption is a case.
     fn definition(&self, symbol: Symbol, context: &Context) -> Option<String> {
         let order = Order { context, factors: self.registry.factors() };
-        let is_it = |x: usize| context.symbol(x) == Some(symbol);
         context.assumptions.iter().find_map(|assumption| match &assumption.usage {
-            AssumptionUse::Pivot(_, _, Some(slack)) if is_it(*slack) => {
-                let given = assumption.hypothesis.as_ref()?;
+            AssumptionUse::Pivot(_, _, Some(slack)) if context.symbol(*slack) == Some(symbol) => {
+                let hypothesis = assumption.hypothesis.as_ref()?;
                 let quotient = assumption.divisor.as_ref().and_then(|by| assumption.value.checked_div(by));
                 let value = quotient.map(|value| order.ratio_or_size(&value));
-                let value = value.unwrap_or_else(|| self.text(&given.value));
-                Some(format!("{} = {value} {} 0", symbol.name(), given.relation))
+                let value = value.unwrap_or_else(|| self.text(&hypothesis.value));
+                Some(format!("{} = {value} {} 0", symbol.name(), hypothesis.relation))
             }
-            AssumptionUse::Interval(_, _, place) if is_it(*place) => {
+            AssumptionUse::Interval(_, _, parameter) if context.symbol(*parameter) == Some(symbol) => {
                 let (x, lower, upper) = assumption.hypothesis.as_ref()?.interval()?;
                 let (name, lower, upper) = (symbol.name(), self.text(lower), self.text(upper));
                 Some(format!("{name} goes from −1 to 1 as {x} goes from {lower} to {upper}"))
             }
-            AssumptionUse::Size { size, .. } if is_it(*size) => {
+            AssumptionUse::Size { size, .. } if context.symbol(*size) == Some(symbol) => {
                 Some(format!("{} = |{}|", symbol.name(), order.ratio_or_size(&assumption.value)))
             }
             _ => None,

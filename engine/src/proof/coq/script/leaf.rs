@@ -3,7 +3,7 @@
 use super::super::lemma::{Result, spaced};
 use super::super::print::simplified;
 use super::solution::Solution;
-use super::{Place, Script, refused};
+use super::{Script, Subgoal, refused};
 use crate::formula::statement::Proposition;
 use crate::number::{Exponential, Tree};
 use crate::proof::check::Sign;
@@ -16,12 +16,12 @@ use std::iter;
 
 /// A leaf that is being written.
 pub(super) struct Writer<'w, 'p> {
-    place: &'w Place<'w>,
+    subgoal: &'w Subgoal<'w>,
     state: &'w State<'p>,
     leaf: &'w Leaf,
     /// The names of the atoms in scope.
     names: Vec<String>,
-    /// The steps in Coq: data, and terms that prove what is supposed.
+    /// The steps in Coq: data, and terms that prove what is assumed.
     steps: Vec<String>,
     /// The number of facts in Coq, and the number there of each fact of the checker so far.
     facts: usize,
@@ -56,31 +56,35 @@ pub(super) fn environment(names: &[String]) -> String {
 pub(super) fn text(of: &Polynomial) -> String {
     let mut terms = Vec::new();
     for (powers, coefficient) in of.terms() {
-        let one_less = |n: u128| if n == 1 { String::new() } else { n.to_string() };
         let factors = powers.iter().zip(b'?'..).filter(|(n, _)| **n > 0);
-        let factors = factors.map(|(n, x)| format!("{}{}", char::from(x), one_less((*n).into())));
+        let factors = factors.map(|(n, x)| format!("{}{}", char::from(x), unless_one((*n).into())));
         let sign = if *coefficient < 0 { '-' } else { '+' };
-        let number = one_less(coefficient.unsigned_abs());
+        let number = unless_one(coefficient.unsigned_abs());
         terms.push(format!("{sign}{number}{}", factors.collect::<String>()));
     }
     format!("\"{}\"", terms.join(" "))
 }
 
+fn unless_one(n: u128) -> String {
+    if n == 1 { String::new() } else { n.to_string() }
+}
+
 impl<'w, 'p> Writer<'w, 'p> {
     pub(super) fn new(
-        place: &'w Place<'w>,
+        subgoal: &'w Subgoal<'w>,
         state: &'w State<'p>,
         leaf: &'w Leaf,
         is_known: impl Fn(usize) -> bool,
     ) -> Result<Self> {
-        let atoms = place.problem.table.atoms();
+        let atoms = subgoal.problem.table.atoms();
         // A number that does not occur stands for what is not in scope.
-        let names = (0..atoms.len()).map(|x| if is_known(x) { place.name(x) } else { "PI".into() }).collect();
+        let names =
+            (0..atoms.len()).map(|x| if is_known(x) { subgoal.name(x) } else { "PI".into() }).collect();
         let (steps, hypotheses, roundings, exponentials, rises, orders, divisors, rounding) =
             Default::default();
         let (facts, numbers) = (1, vec![Some(0)]);
         let mut writer = Writer {
-            place,
+            subgoal,
             state,
             leaf,
             names,
@@ -95,8 +99,8 @@ impl<'w, 'p> Writer<'w, 'p> {
             divisors,
             rounding,
         };
-        for (_, label) in place.known_atoms().filter(|(x, _)| is_known(*x)) {
-            writer.suppose(label);
+        for (_, label) in subgoal.known_atoms().filter(|(x, _)| is_known(*x)) {
+            writer.add_fact(label);
         }
         let mut reader = reread(state.clone());
         for (x, atom) in atoms.iter().enumerate().filter(|(x, _)| is_known(*x)) {
@@ -118,8 +122,8 @@ impl<'w, 'p> Writer<'w, 'p> {
         Ok(writer)
     }
 
-    /// Adds a step with its fact, and returns the number of this.
-    pub(super) fn suppose(&mut self, step: String) -> usize {
+    /// Adds a step with its fact, and returns the number of the fact.
+    pub(super) fn add_fact(&mut self, step: String) -> usize {
         self.steps.push(step);
         self.facts += 1;
         self.facts - 1
@@ -144,12 +148,12 @@ impl<'w, 'p> Writer<'w, 'p> {
 
     /// Returns the number of hypotheses up to the last interval in which a value lies.
     fn last_interval(&self, value: &Quotient) -> usize {
-        let is_interval = |i: &usize| {
+        let last = self.leaf.hypotheses.iter().rposition(|i| {
             let Ok(x) = self.atom(Atom::IntervalParameter(*i)) else { return false };
             let mut factors = value.den.iter().filter_map(|i| self.state.facts.get(*i).ok());
             value.num.degree(x) > 0 || factors.any(|(of, _)| of.degree(x) > 0)
-        };
-        self.leaf.hypotheses.iter().rposition(is_interval).map_or(0, |last| last + 1)
+        });
+        last.map_or(0, |last| last + 1)
     }
 
     /// Adds the equations of exponentials whose exponents are known.
@@ -169,7 +173,7 @@ impl<'w, 'p> Writer<'w, 'p> {
     fn hypotheses_before(&mut self, end: usize) -> Result<()> {
         while self.hypotheses < end {
             let i = self.leaf.hypotheses[self.hypotheses];
-            if self.place.problem.hypotheses[i].interval().is_some() {
+            if self.subgoal.problem.hypotheses[i].interval().is_some() {
                 let x = self.atom(Atom::IntervalParameter(i))?;
                 self.equate(format!("F{x}"));
                 self.hypotheses += 1;
@@ -181,7 +185,7 @@ impl<'w, 'p> Writer<'w, 'p> {
     }
 
     fn atom(&self, atom: Atom) -> Result<usize> {
-        self.place.variable(atom)
+        self.subgoal.variable(atom)
     }
 
     /// Adds the facts before that with a number.
@@ -190,7 +194,7 @@ impl<'w, 'p> Writer<'w, 'p> {
             let i = self.numbers.len();
             let label = self.label(i)?;
             self.share_exponentials();
-            let number = label.map(|label| self.suppose(label));
+            let number = label.map(|label| self.add_fact(label));
             self.numbers.push(number);
         }
         Ok(())
@@ -199,19 +203,19 @@ impl<'w, 'p> Writer<'w, 'p> {
     /// Returns the proof of a fact that no certificate shows, if it is in scope.
     fn label(&mut self, i: usize) -> Result<Option<String>> {
         let state = self.state;
-        if let Some(place) = state.assumed.iter().position(|(_, fact)| *fact == i) {
-            let Some(hypothesis) = state.assumed[place].0 else {
-                return Ok(Some(format!("C{}", place + 1)));
+        if let Some(index) = state.assumed.iter().position(|(_, fact)| *fact == i) {
+            let Some(hypothesis) = state.assumed[index].0 else {
+                return Ok(Some(format!("C{}", index + 1)));
             };
             let rest = &self.leaf.hypotheses[self.hypotheses..];
             let next = rest.iter().position(|i| *i == hypothesis).ok_or("a hypothesis that is not listed")?;
             self.hypotheses_before(self.hypotheses + next)?;
             self.hypotheses += 1;
-            return Ok(self.place.labels.get(hypothesis).cloned().flatten());
+            return Ok(self.subgoal.labels.get(hypothesis).cloned().flatten());
         }
         if let Some(known) = state.sizes.iter().find(|known| known.fact == i) {
             self.hypotheses_before(self.last_interval(&known.value))?;
-            let factor = match self.place.problem.table.atoms().get(known.size) {
+            let factor = match self.subgoal.problem.table.atoms().get(known.size) {
                 Some(Atom::Size(of)) => self.atom(Atom::Factor(*of))?,
                 _ => return Err("an absolute value of nothing".into()),
             };
@@ -287,18 +291,20 @@ impl<'w, 'p> Writer<'w, 'p> {
 
     /// Lists the divisors whose factors have signs, and their squares, which occur in derivatives.
     fn list_divisors(&mut self) {
-        let is_smooth = matches!(self.place.problem.proposition, Proposition::Derivative(..));
+        let is_smooth = matches!(self.subgoal.problem.proposition, Proposition::Derivative(..));
         for factors in std::mem::take(&mut self.divisors) {
             let known = self.state.facts.iter().zip(&self.numbers);
             let strict = known.filter(|((_, sign), _)| sign.is_strict());
             let strict: Vec<_> = strict.filter_map(|((of, _), number)| Some((of, (*number)?))).collect();
-            let number = |of| strict.iter().find(|(known, _)| *known == of).map(|(_, i)| i.to_string());
-            let Some(all) = factors.iter().map(number).collect::<Option<Vec<_>>>() else {
+            let numbers = factors.iter().map(|factor| {
+                strict.iter().find(|(of, _)| *of == factor).map(|(_, number)| number.to_string())
+            });
+            let Some(numbers) = numbers.collect::<Option<Vec<_>>>() else {
                 self.divisors.push(factors);
                 continue;
             };
-            let square = (is_smooth && !all.is_empty()).then(|| [&all[..], &all].concat());
-            for factors in (all.len() != 1).then_some(all).into_iter().chain(square) {
+            let square = (is_smooth && !numbers.is_empty()).then(|| [&numbers[..], &numbers].concat());
+            for factors in (numbers.len() != 1).then_some(numbers).into_iter().chain(square) {
                 let step = format!("Divisor {}%nat", list(&factors));
                 if !self.steps.contains(&step) {
                     self.steps.push(step);
@@ -310,7 +316,7 @@ impl<'w, 'p> Writer<'w, 'p> {
     /// Returns the equation of a rounded formula with the error of an earlier one.
     fn share(&self, x: usize, same: &Same) -> Result<String> {
         let y = self.state.rounded.get(same.rounding).ok_or("a rounding of nothing")?.error;
-        let [down, up] = [&same.down, &same.up].map(|of| self.place.polynomial(of).argument());
+        let [down, up] = [&same.down, &same.up].map(|of| self.subgoal.polynomial(of).argument());
         let powers = "ltac:(power_of_two) ltac:(power_of_two)";
         Ok(format!("same_error _ _ {down} {up} _ _ _ _ _ {powers} F{x} F{y}"))
     }
@@ -318,7 +324,7 @@ impl<'w, 'p> Writer<'w, 'p> {
     /// Adds what a certificate shows, and returns the number of the fact.
     fn certified(&mut self, of: &Polynomial, certificate: &Certificate) -> Result<usize> {
         let certificate = self.certificate(of, certificate)?;
-        Ok(self.suppose(format!("Shown {} {certificate}", text(of))))
+        Ok(self.add_fact(format!("Shown {} {certificate}", text(of))))
     }
 
     /// Returns a certificate for a polynomial as an argument, after adding the lemmas in it.
@@ -332,11 +338,11 @@ impl<'w, 'p> Writer<'w, 'p> {
                 Known::Fact(i) => {
                     self.numbers.get(*i).copied().flatten().ok_or("a fact that is not in scope")?
                 }
-                Known::Value(of) => self.suppose(format!(r#"Shown {} (identity []%nat "" "")"#, text(of))),
+                Known::Value(of) => self.add_fact(format!(r#"Shown {} (identity []%nat "" "")"#, text(of))),
                 Known::Lemma(lemma) => self.certified(&lemma.0, &lemma.1)?,
                 Known::Exponents { left, right } => {
                     let [left, right] = [left, right].map(|all| product(all));
-                    self.suppose(format!("same_exponents _ _ _ _ {left} {right}"))
+                    self.add_fact(format!("same_exponents _ _ _ _ {left} {right}"))
                 }
             };
             numbers.push(number.to_string());
@@ -371,31 +377,36 @@ impl<'w, 'p> Writer<'w, 'p> {
 
 /// Returns the proof of e to the power of a sum as a product of exponentials.
 fn product(all: &[usize]) -> String {
-    let own = all.iter().map(|x| format!("F{x}"));
-    own.reduce(|product, own| format!("(both _ _ _ _ {product} {own})")).unwrap_or("exp_0".into())
+    let factors = all.iter().map(|x| format!("F{x}"));
+    factors.reduce(|product, factor| format!("(both _ _ _ _ {product} {factor})")).unwrap_or("exp_0".into())
 }
 
 impl Script {
     /// Proves the goal at a leaf.
-    pub(super) fn leaf(&mut self, place: &Place, leaf: &Leaf, cases: &[(Polynomial, Sign)]) -> Result<()> {
-        let (state, steps) = trace(place.problem, leaf, cases).map_err(refused)?;
+    pub(super) fn leaf(
+        &mut self,
+        subgoal: &Subgoal,
+        leaf: &Leaf,
+        cases: &[(Polynomial, Sign)],
+    ) -> Result<()> {
+        let (state, steps) = trace(subgoal.problem, leaf, cases).map_err(refused)?;
         for (rise, i) in leaf.rises.iter().zip(1..) {
-            self.rise(place, &state, rise, i)?;
+            self.rise(subgoal, &state, rise, i)?;
         }
         if !leaf.rises.is_empty() {
             self.line("functions.");
         }
-        let is_double = matches!(place.problem.proposition, Proposition::Within(..));
+        let is_double = matches!(subgoal.problem.proposition, Proposition::Within(..));
         let (steps, goals) = steps.split_at(steps.len().saturating_sub(1 + usize::from(is_double)));
-        let mut writer = Writer::new(place, &state, leaf, |_| true)?;
+        let mut writer = Writer::new(subgoal, &state, leaf, |_| true)?;
         for step in steps {
             writer.step(step)?;
         }
         let Some(Step::Sign { facts, .. }) = goals.first() else { return Err("no goal".into()) };
         writer.catch_up(*facts)?;
         writer.finish()?;
-        if place.tactic != "shown" {
-            self.line(&format!("{}.", writer.call(place.tactic)));
+        if subgoal.tactic != "shown" {
+            self.line(&format!("{}.", writer.call(subgoal.tactic)));
             return Ok(());
         }
         let first = writer.reason(&goals[0])?;
@@ -409,52 +420,53 @@ impl Script {
     }
 
     /// Proves that a function has a sign if its argument has one: X1, X2, …
-    fn rise(&mut self, place: &Place, state: &State, rise: &Rise, i: usize) -> Result<()> {
-        let Some(Atom::Own(x)) = place.problem.table.atoms().get(rise.x) else {
+    fn rise(&mut self, subgoal: &Subgoal, state: &State, rise: &Rise, i: usize) -> Result<()> {
+        let Some(Atom::Own(x)) = subgoal.problem.table.atoms().get(rise.x) else {
             return Err("a function of no symbol".into());
         };
-        let parts = parts_of_rise(place.problem, rise, x).map_err(refused)?;
+        let parts = parts_of_rise(subgoal.problem, rise, x).map_err(refused)?;
         let at_x = state.signs.get(rise.x).copied().flatten().ok_or("an argument without a sign")?;
-        let name = place.name(rise.x);
+        let name = subgoal.name(rise.x);
         let (mut values, mut slopes) = (Vec::new(), Vec::new());
-        for (y, atom) in place.problem.table.atoms().iter().enumerate() {
+        for (y, atom) in subgoal.problem.table.atoms().iter().enumerate() {
             let tree = match atom {
                 Atom::Own(symbol) if rise.of.degree(y) > 0 => Tree::symbol(symbol),
                 Atom::Exponential(of) if rise.of.degree(y) > 0 => {
-                    place.problem.table.formula(*of).map_err(refused)?.exp()
+                    subgoal.problem.table.formula(*of).map_err(refused)?.exp()
                 }
                 // It does not occur in the function.
                 _ => Tree::from(0),
             };
             let slope = simplified(&derivative(&tree, x).map_err(refused)?);
-            values.push(place.lemma.printer.expr(&tree).to_string());
-            slopes.push(place.lemma.printer.expr(&slope).to_string());
+            values.push(subgoal.lemma.printer.expr(&tree).to_string());
+            slopes.push(subgoal.lemma.printer.expr(&slope).to_string());
         }
         let [values, slopes] = [list(values), list(slopes)].map(|all| format!("(fun {name} : R => {all})"));
         let signs: [Sign; 3] = [rise.start.into(), rise.slope.into(), at_x];
         let signs = spaced(signs.map(|sign| format!("A_Polynomials.{sign:?}")));
         self.line(&format!("rises {values} {slopes} {}%string {name}{signs} X{i}.", text(&rise.of)));
         for (proposition, assumed) in &parts {
-            let all = place.problem.hypotheses.iter().copied().zip(&place.labels);
-            let others = all.filter(|(given, _)| !given.value.symbols().contains(x));
+            let all = subgoal.problem.hypotheses.iter().copied().zip(&subgoal.labels);
+            let others = all.filter(|(other, _)| !other.value.symbols().contains(x));
             let (mut hypotheses, mut labels): (Vec<_>, Vec<_>) =
-                others.map(|(given, label)| (given, label.clone())).unzip();
+                others.map(|(other, label)| (other, label.clone())).unzip();
             let kept = labels.iter().flatten().filter(|label| *label != "M").cloned();
-            let premises = if place.lemma.rounds { vec!["P".into(), "E".into()] } else { Vec::new() };
+            let premises =
+                if subgoal.lemma.contains_rounding { vec!["P".into(), "E".into()] } else { Vec::new() };
             let kept = spaced(kept.chain(premises));
             let minus = if kept.is_empty() { "" } else { " -" };
             hypotheses.extend(assumed);
             labels.extend(assumed.iter().map(|_| Some("K".to_string())));
             let proposition = proposition.map(&simplified);
             let part = Problem::new(&proposition, hypotheses).map_err(refused)?;
-            self.block("{", |own| {
-                own.line(&format!("clear{minus}{kept}."));
+            self.block("{", |script| {
+                script.line(&format!("clear{minus}{kept}."));
                 if assumed.is_some() {
-                    own.line(&format!("intros {name} K."));
+                    script.line(&format!("intros {name} K."));
                 }
-                let own_place = Place::new(place.lemma, &part, labels);
                 let is_slope = matches!(part.proposition, Proposition::Derivative(..));
-                own.problem(&Place { tactic: if is_slope { "slopes" } else { "shown" }, ..own_place })
+                let tactic = if is_slope { "slopes" } else { "shown" };
+                script.problem(&Subgoal { tactic, ..Subgoal::new(subgoal.lemma, &part, labels) })
             })?;
         }
         Ok(())

@@ -3,7 +3,7 @@
 use super::super::expr::Expr;
 use super::super::lemma::{Lemma, Result};
 use super::leaf::Writer;
-use super::{Place, Script, refused};
+use super::{Script, Subgoal, refused};
 use crate::formula::{Hypothesis, Proposition};
 use crate::number::tree::Op;
 use crate::proof::check::{Atom, Leaf, Node, Polynomial, Quotient, Reason, State};
@@ -11,7 +11,7 @@ use crate::proof::trace::{Step, reread, trace};
 
 /// A limit to be proved.
 struct Limit<'l> {
-    place: Place<'l>,
+    subgoal: Subgoal<'l>,
     state: &'l State<'l>,
     leaf: &'l Leaf,
     steps: &'l [Step],
@@ -31,16 +31,16 @@ impl Script {
         hypotheses: &[&Hypothesis],
         proposition: &Proposition,
     ) -> Result<()> {
-        Place::with(lemma, hypotheses, proposition, |place| {
-            let Proposition::Limit(of, by, _) = place.problem.proposition else {
+        Subgoal::with(lemma, hypotheses, proposition, |subgoal| {
+            let Proposition::Limit(of, by, _) = subgoal.problem.proposition else {
                 return Err("no limit".into());
             };
-            let Node::Leaf(leaf) = place.proof()? else { return Err("a limit in cases".into()) };
-            let (state, mut steps) = trace(place.problem, &leaf, &[]).map_err(refused)?;
+            let Node::Leaf(leaf) = subgoal.proof()? else { return Err("a limit in cases".into()) };
+            let (state, mut steps) = trace(subgoal.problem, &leaf, &[]).map_err(refused)?;
             retain_facts(&state, &mut steps);
             let of = reread(state.clone()).translate(of).map_err(refused)?;
-            let x = place.variable(Atom::Own(by))?;
-            Limit { place, state: &state, leaf: &leaf, steps: &steps, by, x, of }.write(self)
+            let x = subgoal.variable(Atom::Own(by))?;
+            Limit { subgoal, state: &state, leaf: &leaf, steps: &steps, by, x, of }.write(self)
         })
     }
 }
@@ -64,22 +64,27 @@ fn retain_facts(state: &State, steps: &mut Vec<Step>) {
 }
 
 impl Limit<'_> {
+    /// Returns `true` if an atom varies with the variable of the limit.
+    fn is_variable(&self, y: usize) -> bool {
+        self.subgoal.problem.depends(y, self.by)
+    }
+
     fn depends(&self, of: &Polynomial) -> bool {
-        !of.has_only(|y| !self.place.problem.depends(y, self.by))
+        !of.has_only(|y| !self.is_variable(y))
     }
 
     /// Writes a polynomial with exponentials by their formulas.
     fn expr(&self, of: &Polynomial) -> Result<Expr> {
-        let table = &self.place.problem.table;
+        let table = &self.subgoal.problem.table;
         if !of.has_only(|x| matches!(table.atoms().get(x), Some(Atom::Own(_) | Atom::Exponential(_)))) {
             return Err("a limit with other quantities than symbols and exponentials".into());
         }
         Ok(Expr::polynomial(of, |x| match table.atoms()[x] {
             Atom::Exponential(of) => match table.formula(of) {
-                Ok(of) => Expr::call("exp", vec![self.place.lemma.printer.expr(of)]),
-                Err(_) => Expr::name(self.place.name(x)),
+                Ok(of) => Expr::call("exp", vec![self.subgoal.lemma.printer.expr(of)]),
+                Err(_) => Expr::name(self.subgoal.name(x)),
             },
-            _ => Expr::name(self.place.name(x)),
+            _ => Expr::name(self.subgoal.name(x)),
         }))
     }
 
@@ -101,9 +106,9 @@ impl Limit<'_> {
     }
 
     fn write(&self, script: &mut Script) -> Result<()> {
-        let (table, mut rest, mut moving) = (&self.place.problem.table, self.of.num.clone(), Vec::new());
+        let (table, mut rest, mut moving) = (&self.subgoal.problem.table, self.of.num.clone(), Vec::new());
         for (y, atom) in table.atoms().iter().enumerate() {
-            let is_moving = matches!(atom, Atom::Exponential(_)) && self.place.problem.depends(y, self.by);
+            let is_moving = matches!(atom, Atom::Exponential(_)) && self.is_variable(y);
             if is_moving && rest.degree(y) > 0 {
                 moving.push((y, rest.coefficient(y, 1)));
                 rest = rest.coefficient(y, 0);
@@ -152,21 +157,23 @@ impl Limit<'_> {
 
     /// Proves that the formula is that in 1/x, for positive x, plus a decaying exponential of this rate.
     fn equation(&self, script: &mut Script, decaying: Option<(usize, String)>) -> Result<()> {
-        let name = self.place.name(self.x);
-        let is_sign = |given: &Hypothesis| *given.value.op() == Op::Symbol(self.by);
-        let all = self.place.problem.hypotheses.iter().zip(&self.place.labels);
-        let labels = all.map(|(given, label)| label.clone().or(is_sign(given).then(|| "X".into())));
-        let place = Place::new(self.place.lemma, self.place.problem, labels.collect());
+        let name = self.subgoal.name(self.x);
+        let all = self.subgoal.problem.hypotheses.iter().zip(&self.subgoal.labels);
+        let labels = all.map(|(hypothesis, label)| {
+            let is_sign = *hypothesis.value.op() == Op::Symbol(self.by);
+            label.clone().or(is_sign.then(|| "X".into()))
+        });
+        let subgoal = Subgoal::new(self.subgoal.lemma, self.subgoal.problem, labels.collect());
         script.line(&format!("intros {name} X."));
-        script.names(&place, |_| true)?;
-        let mut writer = Writer::new(&place, self.state, self.leaf, |_| true)?;
-        let own = Polynomial::variable(self.x).map_err(refused)?;
-        writer.suppose("X".into());
+        script.names(&subgoal, |_| true)?;
+        let mut writer = Writer::new(&subgoal, self.state, self.leaf, |_| true)?;
+        let variable = Polynomial::variable(self.x).map_err(refused)?;
+        writer.add_fact("X".into());
         for step in self.steps {
             writer.step(step)?;
         }
         let factors = self.of.den.iter().filter_map(|i| self.state.facts.get(*i).ok());
-        writer.divide(factors.map(|(of, _)| of.clone()).filter(|of| *of != own).collect());
+        writer.divide(factors.map(|(of, _)| of.clone()).filter(|of| *of != variable).collect());
         writer.finish()?;
         if let Some((y, rate)) = decaying {
             writer.equate(format!("same_exponential ({rate} * {name}) _ _ _ eq_refl F{y}"));
@@ -177,9 +184,8 @@ impl Limit<'_> {
 
     /// Proves what does not depend on the variable.
     fn at_zero(&self, script: &mut Script, end: impl Fn(&mut Writer) -> Result<String>) -> Result<()> {
-        let stays = |y: usize| !self.place.problem.depends(y, self.by);
-        script.names(&self.place, stays)?;
-        let mut writer = Writer::new(&self.place, self.state, self.leaf, stays)?;
+        script.names(&self.subgoal, |y| !self.is_variable(y))?;
+        let mut writer = Writer::new(&self.subgoal, self.state, self.leaf, |y| !self.is_variable(y))?;
         for step in self.steps {
             match step {
                 Step::Sign { of, .. } if !self.depends(of) => writer.step(step)?,

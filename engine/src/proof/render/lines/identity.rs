@@ -6,6 +6,14 @@ use crate::number::Tree;
 use crate::proof::check::Sign;
 use crate::proof::check::{Atom, Certificate, Known, Polynomial, Quotient, Reason};
 
+/// The sides of a certificate as formulas, if they are short.
+struct Forms {
+    left: Option<Tree>,
+    right: Option<Tree>,
+    /// The sums for which reserved symbols stand.
+    sums: Vec<String>,
+}
+
 impl End<'_> {
     /// Formats a quotient in lowest terms, or its size if it is long.
     pub(super) fn quotient(&self, of: &Quotient) -> String {
@@ -14,11 +22,11 @@ impl End<'_> {
             let quotient = self.state.facts.get(*i).ok().and_then(|(by, _)| divided(&num, by));
             quotient.map(|quotient| num = quotient).is_none()
         });
-        self.over(&num, &den)
+        self.format_quotient(&num, &den)
     }
 
     /// Formats a polynomial over a product of facts, or its size if it is long.
-    fn over(&self, num: &Polynomial, den: &[usize]) -> String {
+    fn format_quotient(&self, num: &Polynomial, den: &[usize]) -> String {
         match self.goal.form(num, &[]) {
             Some(num) => self.formula_over(num, Vec::new(), den),
             None if den.is_empty() => size(num, "term"),
@@ -53,46 +61,30 @@ impl End<'_> {
         }
     }
 
-    /// Returns the lines about the sign of a quotient; none if it is the assumption of a case.
-    pub(super) fn sign(&self, what: &str, of: &Polynomial, den: &[usize], reason: &Reason) -> Vec<String> {
-        let first = self.goal.atoms.len();
-        let certificate = match reason {
-            Reason::Certificate(certificate) => certificate.clone(),
-            Reason::Fact(i) if self.state.assumed.contains(&(None, *i)) && what.is_empty() => {
-                return Vec::new();
-            }
-            Reason::Fact(i) => {
-                let right = Polynomial::variable(first).unwrap_or_default();
-                Certificate { known: vec![Known::Fact(*i)], left: Polynomial::constant(1), right }
-            }
-        };
+    /// Returns the lines about the sign of a quotient, the last one after a prefix; none if it is the assumption
+    /// of a case.
+    pub(super) fn sign(&self, prefix: &str, of: &Polynomial, den: &[usize], reason: &Reason) -> Vec<String> {
+        if prefix.is_empty()
+            && let Reason::Fact(i) = reason
+            && self.state.assumed.contains(&(None, *i))
+        {
+            return Vec::new();
+        }
+        let (certificate, first) = (self.certificate(reason), self.goal.atoms.len());
         let signs = (self.state.certify(of, &certificate), self.state.facts.sign_of_product(den));
         let (Ok(sign), Ok(den_sign)) = signs else { return Vec::new() };
-        let Certificate { known, left, right } = &certificate;
-        let is_one = *left == Polynomial::constant(1);
-        let is_fact = is_one && is_variable(right, first);
+        let is_one = certificate.left == Polynomial::constant(1);
+        let is_fact = is_one && is_variable(&certificate.right, first);
         let (sign, mut by) = (sign_text(sign.times(den_sign)), Vec::new());
         self.reasons(&certificate, &mut by);
-        if is_fact && what.is_empty() && den.is_empty() && !by.is_empty() {
+        if is_fact && prefix.is_empty() && den.is_empty() && !by.is_empty() {
             return by;
         }
-        let (mut sums, written) = (Vec::new(), self.goal.form(of, &[]));
-        let quantities: Option<Vec<_>> =
-            known.iter().map(|known| Some(self.goal.factor(&self.known(known)?, &mut sums))).collect();
-        let form = |form: &Polynomial| quantities.as_ref().and_then(|known| self.goal.form(form, known));
-        let is_readable = is_one || written.is_some() || right.terms().len() <= SHOWN_OF_ROUNDING;
-        let left_form = if left.has_only(|x| x < first) { self.goal.form(left, &[]) } else { form(left) };
-        let right_form = form(right).filter(|_| is_readable);
-        // The signs of lemmas that are not evident.
-        let lemmas = known.iter().filter_map(|known| match known {
-            Known::Lemma(lemma) if right_form.is_some() && !lemma.1.known.is_empty() => Some(lemma),
-            _ => None,
-        });
-        let sign_of_lemma =
-            |lemma: &(_, Certificate)| self.sign("", &lemma.0, &[], &Reason::Certificate(lemma.1.clone()));
-        let mut lines: Vec<_> = lemmas.flat_map(|lemma| sign_of_lemma(lemma)).collect();
-        let line = match right_form {
-            Some(right) if is_one => {
+        let written = self.goal.form(of, &[]);
+        let mut forms = self.forms(&certificate, is_one || written.is_some());
+        let mut lines = if forms.right.is_some() { self.lemmas(&certificate) } else { Vec::new() };
+        let line = match forms.right.take_if(|_| is_one) {
+            Some(right) => {
                 let written = match reason {
                     Reason::Fact(i) => self.fact(*i),
                     Reason::Certificate(_) if is_fact => self.goal.short(of),
@@ -100,29 +92,71 @@ impl End<'_> {
                 };
                 let value = match written.filter(|_| den.is_empty()).map(|of| self.goal.text(&of)) {
                     Some(written) if is_fact => written,
-                    Some(written) => format!("{written} = {}", self.goal.filled(&right, &sums)),
-                    None => self.formula_over(right, sums, den),
+                    Some(written) => format!("{written} = {}", self.goal.filled(&right, &forms.sums)),
+                    None => self.formula_over(right, forms.sums, den),
                 };
                 format!("{value} {sign}")
             }
-            right_form => {
-                let text = |form: Tree| self.goal.filled(&form, &sums);
-                let it = if den.is_empty() { "it" } else { "the numerator" };
-                let times = match left_form.filter(|_| left.terms().len() <= SHOWN_OF_CASE).map(text) {
-                    _ if is_one => String::new(),
-                    Some(sum) if left.terms().len() > 1 => format!("({sum}) times {it} is "),
-                    Some(left) => format!("{left} times {it} is "),
-                    None => format!("a multiple of {it} is "),
-                };
-                let right = right_form.map_or_else(|| size(right, "product"), text);
-                let since = if is_fact { String::new() } else { format!(": {times}{right}") };
-                format!("{} {sign}{since}", self.over(of, den))
+            None if is_fact => format!("{} {sign}", self.format_quotient(of, den)),
+            None => {
+                let multiple = self.multiple(&certificate, &forms, !den.is_empty());
+                format!("{} {sign}: {multiple}", self.format_quotient(of, den))
             }
         };
         by.retain(|reason| *reason != line);
         let by = if by.is_empty() { String::new() } else { format!(", by {}", by.join(", ")) };
-        lines.push(format!("{what}{line}{by}"));
+        lines.push(format!("{prefix}{line}{by}"));
         lines
+    }
+
+    /// Returns the certificate of a reason; that of a fact states that it is the fact.
+    fn certificate(&self, reason: &Reason) -> Certificate {
+        match reason {
+            Reason::Certificate(certificate) => certificate.clone(),
+            Reason::Fact(i) => {
+                let right = Polynomial::variable(self.goal.atoms.len()).unwrap_or_default();
+                Certificate { known: vec![Known::Fact(*i)], left: Polynomial::constant(1), right }
+            }
+        }
+    }
+
+    /// Returns the forms of a certificate; a long right form only if `is_long_shown`.
+    fn forms(&self, certificate: &Certificate, is_long_shown: bool) -> Forms {
+        let Certificate { known, left, right } = certificate;
+        let (first, mut sums) = (self.goal.atoms.len(), Vec::new());
+        let quantities: Option<Vec<_>> =
+            known.iter().map(|known| Some(self.goal.factor(&self.known(known)?, &mut sums))).collect();
+        let left = match &quantities {
+            _ if left.has_only(|x| x < first) => self.goal.form(left, &[]),
+            quantities => quantities.as_ref().and_then(|known| self.goal.form(left, known)),
+        };
+        let right_form = quantities.and_then(|known| self.goal.form(right, &known));
+        let right = right_form.filter(|_| is_long_shown || right.terms().len() <= SHOWN_OF_ROUNDING);
+        Forms { left, right, sums }
+    }
+
+    /// Returns the lines about the signs of lemmas that are not evident.
+    fn lemmas(&self, certificate: &Certificate) -> Vec<String> {
+        let lemmas = certificate.known.iter().filter_map(|known| match known {
+            Known::Lemma(lemma) if !lemma.1.known.is_empty() => Some(lemma),
+            _ => None,
+        });
+        lemmas.flat_map(|lemma| self.sign("", &lemma.0, &[], &Reason::Certificate(lemma.1.clone()))).collect()
+    }
+
+    /// Formats the identity of a certificate: `c times it is …`.
+    fn multiple(&self, certificate: &Certificate, forms: &Forms, is_quotient: bool) -> String {
+        let left = &certificate.left;
+        let it = if is_quotient { "the numerator" } else { "it" };
+        let factor = forms.left.as_ref().filter(|_| left.terms().len() <= SHOWN_OF_CASE);
+        let times = match factor.map(|form| self.goal.filled(form, &forms.sums)) {
+            _ if *left == Polynomial::constant(1) => String::new(),
+            Some(sum) if left.terms().len() > 1 => format!("({sum}) times {it} is "),
+            Some(left) => format!("{left} times {it} is "),
+            None => format!("a multiple of {it} is "),
+        };
+        let right = forms.right.as_ref().map(|form| self.goal.filled(form, &forms.sums));
+        times + &right.unwrap_or_else(|| size(&certificate.right, "product"))
     }
 
     /// Returns a quantity of a certificate as a formula, if it is short.
@@ -139,27 +173,22 @@ impl End<'_> {
         all.iter().fold(Tree::from(1), |product, x| product * &self.goal.atoms[*x])
     }
 
-    /// Adds what a certificate rests on, except for the signs of symbols.
+    /// Adds the facts and bounds on which a certificate rests, except the signs of symbols.
     fn reasons(&self, certificate: &Certificate, all: &mut Vec<String>) {
         let Certificate { known, left, right } = certificate;
         let table = &self.goal.problem.table;
-        let mut own: Vec<_> = known
-            .iter()
-            .filter_map(|known| match known {
-                Known::Fact(i) => self.name_of_fact(*i),
-                Known::Exponents { left, right } => {
-                    Some([left, right].map(|all| self.goal.text(&self.exponentials(all))).join(" = "))
-                }
-                Known::Value(_) | Known::Lemma(_) => None,
-            })
-            .collect();
+        let facts = known.iter().filter_map(|known| match known {
+            Known::Fact(i) => self.name_of_fact(*i),
+            Known::Exponents { left, right } => {
+                Some([left, right].map(|all| self.goal.text(&self.exponentials(all))).join(" = "))
+            }
+            Known::Value(_) | Known::Lemma(_) => None,
+        });
         let units = table.atoms().iter().enumerate().filter(|(x, _)| table.is_unit(*x));
-        own.extend(
-            units.filter(|(x, _)| left.degree(*x).max(right.degree(*x)) > 0).map(|(_, atom)| {
-                format!("|{}ᵢ| ≤ 1", if matches!(atom, Atom::Error(_)) { 'e' } else { 't' })
-            }),
-        );
-        for reason in own {
+        let units = units.filter(|(x, _)| left.degree(*x).max(right.degree(*x)) > 0);
+        let bounds = units
+            .map(|(_, atom)| format!("|{}ᵢ| ≤ 1", if matches!(atom, Atom::Error(_)) { 'e' } else { 't' }));
+        for reason in facts.chain(bounds) {
             if !all.contains(&reason) {
                 all.push(reason);
             }
@@ -179,12 +208,11 @@ impl End<'_> {
         {
             return self.equation_of_size(*of).map(|(equation, _)| equation);
         }
-        let (given, _) = self.state.assumed.iter().find(|(_, fact)| *fact == i)?;
+        let (hypothesis, _) = self.state.assumed.iter().find(|(_, fact)| *fact == i)?;
         let (of, sign) = self.state.facts.get(i).ok()?;
         let is_named = of.as_variable().is_none() || *sign == Sign::Zero;
-        given
-            .filter(|_| is_named)
-            .map(|i| self.goal.printer.registry.format_hypothesis(problem.hypotheses[i]))
+        let hypothesis = problem.hypotheses[hypothesis.filter(|_| is_named)?];
+        Some(self.goal.printer.registry.format_hypothesis(hypothesis))
     }
 
     /// Returns the equation x = t |x| of the formula with a number, and the factor t.
@@ -205,7 +233,7 @@ pub(super) fn size(of: &Polynomial, what: &str) -> String {
 
 /// Returns a symbol, which occurs in no statement, for a sum.
 pub(super) fn placeholder(sum: String, sums: &mut Vec<String>) -> Tree {
-    let i = sums.iter().position(|own| *own == sum).unwrap_or(sums.len());
+    let i = sums.iter().position(|known| *known == sum).unwrap_or(sums.len());
     if i == sums.len() {
         sums.push(sum);
     }
@@ -214,8 +242,8 @@ pub(super) fn placeholder(sum: String, sums: &mut Vec<String>) -> Tree {
 
 /// Returns `true` for a variable from a number on, and for minus one.
 fn is_variable(of: &Polynomial, first: usize) -> bool {
-    let negated = || Polynomial::zero().plus_multiple(-1, of).ok()?.as_variable();
-    of.as_variable().or_else(negated) >= Some(first)
+    let variable = of.as_variable();
+    variable.or_else(|| Polynomial::zero().plus_multiple(-1, of).ok()?.as_variable()) >= Some(first)
 }
 
 /// Returns a polynomial divided by a number or a variable, if its terms are multiples of that.
