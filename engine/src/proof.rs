@@ -44,7 +44,7 @@ mod trace;
 pub use bounds::{RoundingBound, RoundingBoundError, rounding_bound};
 pub use check::{MAX_DEPTH, MAX_SIZE, Proof};
 pub use effort::MAX_EFFORT;
-pub use hints::sufficient_hypothesis;
+pub use hints::sufficient_hypotheses;
 pub use mutation::{MutationReport, test_mutations};
 pub use refute::{Counterexample, Refutation, refute, tightest_point};
 pub use search::{ProofError, prove};

@@ -23,8 +23,8 @@ impl<T: Real + ToExact> Floats<T> {
     where
         T: 'a,
     {
-        let order = |a: &T, b: &T| a.partial_cmp(b).unwrap_or(Ordering::Equal);
-        let eta = numbers.into_iter().map(Real::unit_roundoff).max_by(order)?;
+        let roundoffs = numbers.into_iter().map(Real::unit_roundoff);
+        let eta = roundoffs.max_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal))?;
         let precision = Exact::one() / eta.to_exact().ok().filter(|eta| !eta.is_zero())?;
         Some(Floats { precision, least: T::min_subnormal() / eta })
     }
@@ -43,8 +43,8 @@ impl<T: Real + ToExact> Floats<T> {
             _ => true,
         };
         let value = op.value(&|_| T::zero(), &piecewise_ops)?;
-        let is_small = || value.is_zero() || value.abs() < self.least;
-        (Real::is_finite(&value) && (is_zero || !is_small())).then_some(value)
+        let is_normal = is_zero || !(value.is_zero() || value.abs() < self.least);
+        (Real::is_finite(&value) && is_normal).then_some(value)
     }
 }
 

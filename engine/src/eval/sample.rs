@@ -113,8 +113,8 @@ pub fn adjust<C: Coordinates>(
         }
     }
     // Adjusting to one hypothesis may violate another.
-    let holds = |hypothesis: &Hypothesis| admits(&|symbol| at.get(symbol), hypothesis);
-    (!is_changed || hypotheses.iter().all(holds)).then_some(())
+    let holds = !is_changed || hypotheses.iter().all(|h| admits(&|symbol| at.get(symbol), h));
+    holds.then_some(())
 }
 
 /// Formats the point as `a = 1, b = -2`.
@@ -180,13 +180,9 @@ pub fn first_integer_points(
     hypotheses: &[Hypothesis],
     symbols: &[&'static str],
 ) -> impl Iterator<Item = Point> {
-    let holds = |i: &u64| {
-        let symbol = |symbol: &'static str| integer_coordinate(*i, symbol);
-        hypotheses.iter().all(|hypothesis| admits(&symbol, hypothesis))
-    };
-    (0..count)
-        .filter(holds)
-        .map(|i| Point::new(symbols.iter().map(|symbol| (*symbol, integer_coordinate(i, symbol)))))
+    let admitted =
+        (0..count).filter(|i| hypotheses.iter().all(|h| admits(&|symbol| integer_coordinate(*i, symbol), h)));
+    admitted.map(|i| Point::new(symbols.iter().map(|symbol| (*symbol, integer_coordinate(i, symbol)))))
 }
 
 /// Returns constructed points at which hypotheses hold.
@@ -194,27 +190,30 @@ pub fn constructed_points(
     hypotheses: &[Hypothesis],
     symbols: &[&'static str],
 ) -> impl Iterator<Item = Point> {
-    // Quotients of 1 to 9 and 1 to 3.
-    let size = |random: &mut Rand64| {
-        Exact::from(Rational::from((random.rand_range(1..10), random.rand_range(1..4))))
-    };
     (0..CONSTRUCTED_POINTS).filter_map(move |i| {
-        let draw = |symbol: &&'static str| {
-            let mut random = random(INTEGER_POINTS + i, symbol);
-            if *symbol == PRECISION || SCALES.contains(symbol) {
-                return (*symbol, power_of_two(symbol, &mut random));
-            }
-            let x = size(&mut random);
-            (*symbol, if random.rand_range(0..3) == 0 { -x } else { x })
-        };
-        let target = size(&mut random(INTEGER_POINTS + i, ""));
+        let target = small_fraction(&mut random(INTEGER_POINTS + i, ""));
+        let point = Point::new(symbols.iter().map(|symbol| (*symbol, constructed_coordinate(i, symbol))));
         // A quantity that may be 0 becomes 0 at every third point.
-        Point::new(symbols.iter().map(draw)).adjusted_to(hypotheses, |relation| match relation {
+        point.adjusted_to(hypotheses, |relation| match relation {
             Relation::Positive => target.clone(),
             Relation::NonNegative if i % 3 > 0 => target.clone(),
             Relation::NonNegative | Relation::Zero => Exact::zero(),
         })
     })
+}
+
+fn constructed_coordinate(point: u64, symbol: &str) -> Exact {
+    let mut random = random(INTEGER_POINTS + point, symbol);
+    if symbol == PRECISION || SCALES.contains(&symbol) {
+        return power_of_two(symbol, &mut random);
+    }
+    let x = small_fraction(&mut random);
+    if random.rand_range(0..3) == 0 { -x } else { x }
+}
+
+/// Draws a quotient of 1 to 9 and 1 to 3.
+fn small_fraction(random: &mut Rand64) -> Exact {
+    Exact::from(Rational::from((random.rand_range(1..10), random.rand_range(1..4))))
 }
 
 #[cfg(test)]

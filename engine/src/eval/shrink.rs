@@ -13,9 +13,9 @@ const SIMPLE: [i32; 7] = [1, 0, 2, -1, 3, -2, -3];
 /// Returns the rank of a number in the order of preference.
 fn complexity(x: &Exact) -> u64 {
     let q = x.as_rational();
-    let simple = SIMPLE.iter().position(|n| *q == *n);
-    let length = || q.numer().significant_bits() + q.denom().significant_bits();
-    simple.map_or_else(|| SIMPLE.len() as u64 + u64::from(length()), |rank| rank as u64)
+    let length = q.numer().significant_bits() + q.denom().significant_bits();
+    let rank = SIMPLE.iter().position(|n| *q == *n);
+    rank.map_or(SIMPLE.len() as u64 + u64::from(length), |rank| rank as u64)
 }
 
 /// Returns candidates for a simpler coordinate, the simplest first: simple numbers, half of the number, and
@@ -71,8 +71,11 @@ impl Simplification<'_> {
     fn improves(&mut self, symbol: &'static str, x: Exact) -> bool {
         let (point, hypotheses) = (self.best.point.with(symbol, x), self.statement.hypotheses());
         let mut candidates = Vec::new();
-        let target = |relation| Exact::from(i32::from(relation == Relation::Positive));
-        candidates.extend(point.clone().adjusted_to(hypotheses, target));
+        candidates.extend(
+            point
+                .clone()
+                .adjusted_to(hypotheses, |relation| Exact::from(i32::from(relation == Relation::Positive))),
+        );
         if let Failure::Undefined(divisor) = &self.best.failure {
             let others = divisor.symbols().into_iter().filter(|other| *other != symbol);
             let undefined = others.filter_map(|other| with_divisor_zero(divisor, other, &point));
@@ -89,9 +92,8 @@ impl Simplification<'_> {
         }
         let Verdict::Fails(part, failure) = self.compiled.verdict(&point) else { return None };
         // A counterexample with defined values is not replaced by one with a zero divisor.
-        let is_undefined = |failure: &Failure| matches!(failure, Failure::Undefined(_));
-        let is_as_clear = !is_undefined(&failure) || is_undefined(&self.best.failure);
-        is_as_clear.then_some(Counterexample { point, part, failure })
+        let [new, best] = [&failure, &self.best.failure].map(|f| matches!(f, Failure::Undefined(_)));
+        (!new || best).then_some(Counterexample { point, part, failure })
     }
 }
 
@@ -113,10 +115,11 @@ pub(crate) fn shrink(statement: &Statement, found: Counterexample) -> Counterexa
     // The value of the variable of a limit is irrelevant.
     let mut best = search.best;
     if matches!(best.failure, Failure::NotConverging(_)) {
-        let is_variable =
-            |name: &str| statement.goals().iter().any(|goal| goal.proposition.variable() == Some(name));
-        let fixed =
-            best.point.restricted_to(&symbols.into_iter().filter(|name| !is_variable(name)).collect());
+        let mut fixed = symbols;
+        statement.goals().iter().filter_map(|goal| goal.proposition.variable()).for_each(|x| {
+            fixed.remove(x);
+        });
+        let fixed = best.point.restricted_to(&fixed);
         if fixed.satisfies(statement.hypotheses()) {
             best.point = fixed;
         }

@@ -96,8 +96,8 @@ impl Hypothesis {
     pub fn between(symbol: &Tree, lower: impl Into<Tree>, upper: impl Into<Tree>) -> Self {
         let (lower, upper) = (lower.into(), upper.into());
         let name = name_of(symbol);
-        let depends = |end: &Tree| end.symbols().contains(name);
-        assert!(!depends(&lower) && !depends(&upper), "the interval of {name} depends on it");
+        let depends = [&lower, &upper].into_iter().any(|end| end.symbols().contains(name));
+        assert!(!depends, "the interval of {name} depends on it");
         let hypothesis = Hypothesis::new(Relation::NonNegative, (upper - symbol) * (symbol - lower));
         Hypothesis { solved_for: name, ..hypothesis }
     }
@@ -116,9 +116,9 @@ impl Hypothesis {
         let Op::Mul(above, below) = self.value.op() else { return None };
         let (Op::Sub(upper, x), Op::Sub(y, lower)) = (above.op(), below.op()) else { return None };
         let Op::Symbol(name) = x.op() else { return None };
-        let depends = |end: &Tree| end.symbols().contains(name);
-        let says_so = self.relation == Relation::NonNegative && x == y && !depends(lower) && !depends(upper);
-        says_so.then_some((*name, lower, upper))
+        let depends = [lower, upper].into_iter().any(|end| end.symbols().contains(name));
+        let is_interval = self.relation == Relation::NonNegative && x == y && !depends;
+        is_interval.then_some((*name, lower, upper))
     }
 
     /// Returns the distance and its bound if the hypothesis states that a symbol is [near](Self::near) a

@@ -111,13 +111,13 @@ impl Registry {
     }
 
     /// Sets pairs of symbols of the same unit that could be confused.
-    pub fn with_confusable(self, alike: &[[&'static str; 2]]) -> Self {
-        Registry { confusable: alike.to_vec(), ..self }
+    pub fn with_confusable(self, pairs: &[[&'static str; 2]]) -> Self {
+        Registry { confusable: pairs.to_vec(), ..self }
     }
 
     /// Sets symbols that are parameters. Abbreviations omit them as arguments if all have their usual names.
-    pub fn with_implicit(self, quiet: &[&'static str]) -> Self {
-        Registry { implicit: quiet.to_vec(), ..self }
+    pub fn with_implicit(self, parameters: &[&'static str]) -> Self {
+        Registry { implicit: parameters.to_vec(), ..self }
     }
 
     /// Sets the order of the factors in a product.
@@ -132,21 +132,20 @@ impl Registry {
 
     /// Returns symbols of the same unit that could be confused with this one.
     pub fn confusable_with(&self, symbol: &str) -> impl Iterator<Item = &'static str> {
-        let other = move |[a, b]: &[&'static str; 2]| match symbol {
+        self.confusable.iter().filter_map(move |[a, b]| match symbol {
             _ if *a == symbol => Some(*b),
             _ if *b == symbol => Some(*a),
             _ => None,
-        };
-        self.confusable.iter().filter_map(other)
+        })
     }
 
     /// Returns a registry that writes out functions whose symbols are those of these quantities; `None` if
     /// there are none.
     pub(crate) fn without_symbols(&self, quantities: &BTreeSet<&str>) -> Option<Self> {
-        let is_taken = |formula: &Formula| formula.abbreviated && quantities.contains(formula.symbol);
-        self.formulas.iter().any(is_taken).then(|| {
+        let abbreviated = self.formulas.iter().filter(|formula| formula.abbreviated);
+        abbreviated.clone().any(|formula| quantities.contains(formula.symbol)).then(|| {
             let mut registry = self.clone();
-            registry.formulas.iter_mut().for_each(|formula| formula.abbreviated &= !is_taken(formula));
+            registry.formulas.iter_mut().for_each(|f| f.abbreviated &= !quantities.contains(f.symbol));
             registry
         })
     }
@@ -208,7 +207,7 @@ impl Registry {
     /// Several values are the two sides of an equation, or residuals: `c u − m g + λ = 0, p = 0`.
     pub fn format_equation(&self, path: &str) -> Option<String> {
         let values: Vec<_> = self.formulas.iter().filter(|formula| formula.path == path).collect();
-        let said = values.iter().map(|formula| {
+        let sides = values.iter().map(|formula| {
             let text = self.typeset(formula, Notation::Text);
             match (formula.symbol, formula.part) {
                 ("", None | Some("left" | "right")) => text,
@@ -216,9 +215,9 @@ impl Registry {
                 (symbol, _) => format!("{symbol} = {text}"),
             }
         });
-        let sides = values.iter().any(|formula| formula.part == Some("left"));
-        let said: Vec<_> = said.collect();
-        (!said.is_empty()).then(|| said.join(if sides { " = " } else { ", " }))
+        let has_sides = values.iter().any(|formula| formula.part == Some("left"));
+        let separator = if has_sides { " = " } else { ", " };
+        (!values.is_empty()).then(|| sides.collect::<Vec<_>>().join(separator))
     }
 
     /// Replaces the placeholders of a text; those that name no formula stay.
@@ -297,8 +296,8 @@ impl Registry {
             let formula = &self.formulas[i];
             let mut found = HashMap::new();
             matches(&formula.tree, tree, &formula.arguments, &mut found).then_some(())?;
-            let argument = |name: &'static str| found.get(name).map(|tree| (*tree).clone());
-            let arguments = formula.depends_on().map(argument).collect::<Option<_>>()?;
+            let arguments = formula.depends_on().map(|name| found.get(name).map(|tree| (*tree).clone()));
+            let arguments = arguments.collect::<Option<_>>()?;
             Some(Call { formula, arguments })
         })
     }
@@ -371,9 +370,11 @@ struct CallNames<'a> {
 
 impl CallNames<'_> {
     fn typeset(&self, formula: &Formula, notation: Notation) -> String {
-        let around = |text: &str| if notation == Notation::Latex { latex(text) } else { text.to_string() };
         let tree = formula.tree.typeset(notation, &|tree| self.of(tree));
-        formula.template.split("«»").map(around).collect::<Vec<_>>().join(&tree)
+        match notation {
+            Notation::Latex => formula.template.split("«»").map(latex).collect::<Vec<_>>().join(&tree),
+            Notation::Text => formula.template.replace("«»", &tree),
+        }
     }
 
     fn of(&self, tree: &Tree) -> Option<Name> {
@@ -386,17 +387,23 @@ impl CallNames<'_> {
         if self.own.is_some_and(|own| own.name() == formula.name()) {
             return None;
         }
-        let usual =
-            |argument: &Tree, name: &str| argument.typeset(Notation::Text, &|tree| self.of(tree)) == name;
-        let named: Vec<_> = arguments.into_iter().zip(formula.depends_on()).collect();
-        let arguments = if named.iter().all(|(argument, name)| usual(argument, name)) {
-            Vec::new()
-        } else {
-            // Either all parameters or none are displayed, so that arguments are identified by their
-            // position.
-            let quiet = |name: &str| self.registry.implicit.contains(&name);
-            let said = named.iter().any(|(argument, name)| quiet(name) && !usual(argument, name));
-            named.into_iter().filter(|(_, name)| said || !quiet(name)).map(|(argument, _)| argument).collect()
+        let (mut all, mut without_implicit) = (Vec::new(), Vec::new());
+        let (mut is_usual, mut is_implicit_usual) = (true, true);
+        for (argument, name) in arguments.into_iter().zip(formula.depends_on()) {
+            let has_usual_name = argument.typeset(Notation::Text, &|tree| self.of(tree)) == name;
+            is_usual &= has_usual_name;
+            if self.registry.implicit.contains(&name) {
+                is_implicit_usual &= has_usual_name;
+            } else {
+                without_implicit.push(argument.clone());
+            }
+            all.push(argument);
+        }
+        // Either all parameters or none are displayed, so that arguments are identified by their position.
+        let arguments = match is_implicit_usual {
+            _ if is_usual => Vec::new(),
+            true => without_implicit,
+            false => all,
         };
         Some(Name { symbol: formula.symbol.to_string(), arguments })
     }

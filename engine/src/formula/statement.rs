@@ -88,9 +88,10 @@ impl Statement {
         self.goals = Vec::new();
         self.computed = Vec::new();
         for (symbol, by) in &self.computes {
-            let is_its_interval = |h: &Hypothesis| h.interval().is_some_and(|(x, ..)| x == *symbol);
-            let Some(place) = hypotheses.iter().position(is_its_interval) else { continue };
-            let hypothesis = hypotheses.remove(place);
+            let mut intervals = hypotheses.iter().map(Hypothesis::interval);
+            let index = intervals.position(|interval| interval.is_some_and(|(x, ..)| x == *symbol));
+            let Some(index) = index else { continue };
+            let hypothesis = hypotheses.remove(index);
             let proposition = Proposition::of_hypothesis(&hypothesis, &[(symbol, by.clone())]);
             let role = Role::Computed(self.computed.len());
             self.goals.push(Goal { part: "computed", role, proposition });
@@ -105,8 +106,8 @@ impl Statement {
                 self.invariants = match sequence.limit {
                     Some(_) => Vec::new(),
                     None => {
-                        let changes = |h: &mut Hypothesis| sequence.changes(h);
-                        hypotheses.extract_if(.., changes).chain(sequence.invariant()).collect()
+                        let changing = hypotheses.extract_if(.., |h| sequence.changes(h));
+                        changing.chain(sequence.invariant()).collect()
                     }
                 };
                 self.goals.extend(sequence.goals(&self.invariants));
@@ -118,9 +119,9 @@ impl Statement {
         if self.contains_rounding {
             // The minimum precision comes last if other hypotheses on the precision, which are stronger,
             // exist.
-            let of_precision = |h: &Hypothesis| h.value.symbols().contains(PRECISION);
-            let place = if hypotheses.iter().any(of_precision) { hypotheses.len() } else { 0 };
-            hypotheses.insert(place, minimum_precision());
+            let is_bounded = hypotheses.iter().any(|h| h.value.symbols().contains(PRECISION));
+            let index = if is_bounded { hypotheses.len() } else { 0 };
+            hypotheses.insert(index, minimum_precision());
         }
         self.hypotheses = hypotheses;
         self
@@ -156,9 +157,8 @@ impl Statement {
     /// computed already.
     pub fn computing(mut self, symbol: &Tree, by: impl Into<Tree>) -> Self {
         let name = name_of(symbol);
-        let of_it = |hypothesis: &&Hypothesis| hypothesis.value.symbols().contains(name);
-        let own: Vec<_> = self.stated.iter().filter(of_it).collect();
-        let [only] = own[..] else { panic!("{}: no interval of {name} is assumed", self.name) };
+        let all: Vec<_> = self.stated.iter().filter(|h| h.value.symbols().contains(name)).collect();
+        let [only] = all[..] else { panic!("{}: no interval of {name} is assumed", self.name) };
         let is_interval = only.interval().is_some_and(|(x, ..)| x == name);
         assert!(is_interval, "{}: {only} is not an interval of {name}", self.name);
         assert!(

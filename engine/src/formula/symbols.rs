@@ -18,12 +18,10 @@ pub const MEMBERS: [&str; 4] = ["x₁", "x₂", "x₃", "x₄"];
 /// Returns a letter with the subscript `index` + 1: v₁ for 0.
 pub(crate) fn subscripted(letter: char, index: u8) -> &'static str {
     static NAMES: Mutex<BTreeMap<(char, u8), &str>> = Mutex::new(BTreeMap::new());
-    let name = || {
-        let digits = (u32::from(index) + 1).to_string();
-        let subscript = |digit: u8| char::from_u32(u32::from('₀') + u32::from(digit - b'0'));
-        let name: String = [letter].into_iter().chain(digits.bytes().filter_map(subscript)).collect();
-        &*name.leak()
-    };
     let mut names = NAMES.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-    names.entry((letter, index)).or_insert_with(name)
+    names.entry((letter, index)).or_insert_with(|| {
+        let digits = (u32::from(index) + 1).to_string();
+        let digits = digits.bytes().filter_map(|d| char::from_u32(u32::from('₀') + u32::from(d - b'0')));
+        String::from_iter([letter].into_iter().chain(digits)).leak()
+    })
 }

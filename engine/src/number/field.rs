@@ -116,8 +116,8 @@ pub trait Field:
 
     /// Replaces `self` by the result of an arithmetic operation, bit for bit, and may reuse its memory.
     /// Returns `false` without a change for an operation that not every field has.
-    fn assign_op(&mut self, step: Op<&Self>) -> bool {
-        step.arithmetic().map(|result| *self = result).is_some()
+    fn assign_op(&mut self, op: Op<&Self>) -> bool {
+        op.arithmetic().map(|result| *self = result).is_some()
     }
 }
 

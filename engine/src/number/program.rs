@@ -23,7 +23,7 @@ use std::collections::HashMap;
 #[derive(Clone, Debug, Default)]
 pub struct Program {
     /// Operations after their operands, which are indices.
-    steps: Vec<Op<usize>>,
+    ops: Vec<Op<usize>>,
     places: HashMap<Op<usize>, usize>,
 }
 
@@ -31,22 +31,22 @@ impl Program {
     /// Adds a formula and returns the index of its value.
     pub fn add(&mut self, formula: &Tree) -> usize {
         if formula.size() <= SMALL {
-            let step = formula.op().map(|operand| self.add(operand));
-            return self.place(step);
+            let op = formula.op().map(|operand| self.add(operand));
+            return self.place(op);
         }
         let mut places = HashMap::new();
         for tree in formula.distinct() {
-            let step = tree.op().map(|operand| places[&operand.address()]);
-            places.insert(tree.address(), self.place(step));
+            let op = tree.op().map(|operand| places[&operand.address()]);
+            places.insert(tree.address(), self.place(op));
         }
         places[&formula.address()]
     }
 
     /// Returns the index of an operation on values of the program.
-    fn place(&mut self, step: Op<usize>) -> usize {
-        let next = self.steps.len();
-        *self.places.entry(step).or_insert_with(|| {
-            self.steps.push(step);
+    fn place(&mut self, op: Op<usize>) -> usize {
+        let next = self.ops.len();
+        *self.places.entry(op).or_insert_with(|| {
+            self.ops.push(op);
             next
         })
     }
@@ -54,25 +54,25 @@ impl Program {
     /// Returns the formula at an index.
     pub fn formula(&self, place: usize) -> Tree {
         let (first, mut formulas) = (Tree::from(0), Vec::with_capacity(place + 1));
-        for step in &self.steps[..=place] {
-            formulas.push(first.with_op(step.map(|operand: &usize| Tree::clone(&formulas[*operand]))));
+        for op in &self.ops[..=place] {
+            formulas.push(first.with_op(op.map(|operand: &usize| Tree::clone(&formulas[*operand]))));
         }
         formulas.swap_remove(place)
     }
 
     /// Returns the operations, each after its operands, which are indices.
     pub fn ops(&self) -> &[Op<usize>] {
-        &self.steps
+        &self.ops
     }
 
     /// Returns the number of operations.
     pub fn len(&self) -> usize {
-        self.steps.len()
+        self.ops.len()
     }
 
     /// Returns `true` if the program is empty.
     pub fn is_empty(&self) -> bool {
-        self.steps.is_empty()
+        self.ops.is_empty()
     }
 
     /// Specialises the program for repeated runs in which the quantities that `fixed` returns stay the same:
@@ -83,22 +83,22 @@ impl Program {
         fixed: &impl Fn(&'static str) -> Option<T>,
         extra_ops: &impl Fn(Op<&T>) -> Option<T>,
     ) -> Option<SpecializedProgram<T>> {
-        let (mut values, mut steps, mut vary) = (Vec::<T>::new(), Vec::new(), Vec::<bool>::new());
-        for (place, step) in self.steps.iter().enumerate() {
+        let (mut values, mut ops, mut vary) = (Vec::<T>::new(), Vec::new(), Vec::<bool>::new());
+        for (place, op) in self.ops.iter().enumerate() {
             let mut value = T::zero();
-            let varies = if let Op::Symbol(name) = step {
+            let varies = if let Op::Symbol(name) = op {
                 fixed(name).map(|number| value = number).is_none()
-            } else if step.operands().any(|operand| vary[*operand]) {
-                steps.push((place, *step));
+            } else if op.operands().any(|operand| vary[*operand]) {
+                ops.push((place, *op));
                 true
             } else {
-                compute(&mut value, step.map(|operand| &values[*operand]), extra_ops)?;
+                compute(&mut value, op.map(|operand| &values[*operand]), extra_ops)?;
                 false
             };
             values.push(value);
             vary.push(varies);
         }
-        Some(SpecializedProgram { values, steps })
+        Some(SpecializedProgram { values, ops })
     }
 }
 
@@ -126,7 +126,7 @@ impl Program {
 pub struct SpecializedProgram<T> {
     values: Vec<T>,
     /// Operations of a run with the indices of their results.
-    steps: Vec<(usize, Op<usize>)>,
+    ops: Vec<(usize, Op<usize>)>,
 }
 
 impl<T: Field> SpecializedProgram<T> {
@@ -144,22 +144,22 @@ impl<T: Field> SpecializedProgram<T> {
 
     /// Computes what depends on the varying quantities; returns `None` if `extra_ops` does.
     pub fn run(&mut self, extra_ops: &impl Fn(Op<&T>) -> Option<T>) -> Option<()> {
-        for (place, step) in &self.steps {
+        for (place, op) in &self.ops {
             // Every operation stands after its operands.
             let (before, rest) = self.values.split_at_mut(*place);
-            compute(&mut rest[0], step.map(|operand| &before[*operand]), extra_ops)?;
+            compute(&mut rest[0], op.map(|operand| &before[*operand]), extra_ops)?;
         }
         Some(())
     }
 
     /// Returns the number of operations of a run.
     pub fn len(&self) -> usize {
-        self.steps.len()
+        self.ops.len()
     }
 
     /// Returns `true` if a run has no operations.
     pub fn is_empty(&self) -> bool {
-        self.steps.is_empty()
+        self.ops.is_empty()
     }
 }
 
@@ -170,9 +170,9 @@ impl<T> std::ops::Index<usize> for SpecializedProgram<T> {
     }
 }
 
-fn compute<T: Field>(result: &mut T, step: Op<&T>, extra_ops: &impl Fn(Op<&T>) -> Option<T>) -> Option<()> {
-    if !result.assign_op(step) {
-        *result = extra_ops(step)?;
+fn compute<T: Field>(result: &mut T, op: Op<&T>, extra_ops: &impl Fn(Op<&T>) -> Option<T>) -> Option<()> {
+    if !result.assign_op(op) {
+        *result = extra_ops(op)?;
     }
     Some(())
 }

@@ -40,7 +40,7 @@ pub struct Tree(Arc<Node>);
 
 #[derive(Debug)]
 struct Node {
-    step: Op<Tree>,
+    op: Op<Tree>,
     site: Site,
     depth: u32,
     size: u32,
@@ -54,7 +54,7 @@ const SHALLOW: u32 = 500;
 
 impl Node {
     fn take_operands(&mut self) -> Vec<Tree> {
-        mem::replace(&mut self.step, Op::Int(0)).operands().cloned().collect()
+        mem::replace(&mut self.op, Op::Int(0)).operands().cloned().collect()
     }
 }
 
@@ -98,9 +98,11 @@ impl Tree {
     /// ```
     pub fn with_rounding(&self) -> Self {
         use Op::{Add, Div, Exp, Mul, Sub};
-        let rounds = |tree: &Tree| matches!(tree.op(), Add(..) | Sub(..) | Mul(..) | Div(..) | Exp(_));
-        // The rounding has the site of the operation itself.
-        self.rewrite(&|tree| rounds(tree).then(|| tree.with_op(Op::Rounded(tree.clone()))))
+        self.rewrite(&|tree| match tree.op() {
+            // The rounding has the site of the operation itself.
+            Add(..) | Sub(..) | Mul(..) | Div(..) | Exp(_) => Some(tree.with_op(Op::Rounded(tree.clone()))),
+            _ => None,
+        })
     }
 
     /// Returns `true` if the formula contains fl(·).
@@ -110,7 +112,7 @@ impl Tree {
 
     /// Returns the last operation.
     pub fn op(&self) -> &Op<Tree> {
-        &self.0.step
+        &self.0.op
     }
 
     /// Returns the place of the last operation in the source.
@@ -169,7 +171,7 @@ impl Tree {
         symbol: &impl Fn(&'static str) -> T,
         target: &T,
     ) -> Option<T> {
-        let extra_ops = |step: Op<&Dual<T>>| match step {
+        let extra_ops = |op: Op<&Dual<T>>| match op {
             Op::Rounded(x) => Some(x.clone()),
             _ => None,
         };
@@ -182,12 +184,12 @@ impl Tree {
     pub fn rewrite(&self, f: &impl Fn(&Tree) -> Option<Tree>) -> Tree {
         let mut rewritten: FxHashMap<_, Tree> = FxHashMap::default();
         for old in self.distinct() {
-            let step = old.op().map(|operand| rewritten[&operand.address()].clone());
-            let same = step.operands().zip(old.op().operands()).all(|(a, b)| a.address() == b.address());
-            let tree = if same { old.clone() } else { old.with_op(step) };
+            let op = old.op().map(|operand| rewritten[&operand.address()].clone());
+            let same = op.operands().zip(old.op().operands()).all(|(a, b)| a.address() == b.address());
+            let tree = if same { old.clone() } else { old.with_op(op) };
             rewritten.insert(old.address(), f(&tree).unwrap_or(tree));
         }
-        rewritten.remove(&self.address()).expect("the last step is one of them")
+        rewritten.remove(&self.address()).expect("the root is rewritten last")
     }
 
     pub(crate) fn address(&self) -> usize {
@@ -219,14 +221,14 @@ impl Tree {
     }
 
     /// Returns the tree with another last operation at the same place of the source.
-    pub fn with_op(&self, step: Op<Tree>) -> Tree {
-        Tree::at(self.0.site, step)
+    pub fn with_op(&self, op: Op<Tree>) -> Tree {
+        Tree::at(self.0.site, op)
     }
 
-    fn at(site: Site, step: Op<Tree>) -> Tree {
-        let depth = step.operands().map(|operand| operand.depth().saturating_add(1)).max().unwrap_or(0);
-        let size = step.operands().fold(1, |sum: u32, operand| sum.saturating_add(operand.size()));
-        Tree(Arc::new(Node { step, site, depth, size }))
+    fn at(site: Site, op: Op<Tree>) -> Tree {
+        let depth = op.operands().map(|operand| operand.depth().saturating_add(1)).max().unwrap_or(0);
+        let size = op.operands().fold(1, |sum: u32, operand| sum.saturating_add(operand.size()));
+        Tree(Arc::new(Node { op, site, depth, size }))
     }
 
     /// Calls `f` for every operation, the last first.
@@ -277,11 +279,11 @@ pub fn symbols<const N: usize>(names: [&'static str; N]) -> [Tree; N] {
 }
 
 #[track_caller]
-fn node(step: Op<Tree>) -> Tree {
+fn node(op: Op<Tree>) -> Tree {
     let at = Location::caller();
     let (file, line, column) = (at.file(), at.line(), at.column());
     let mut site = Site { file, line, column, rank: 0 };
-    if let Some(Site { rank, .. }) = step
+    if let Some(Site { rank, .. }) = op
         .operands()
         .next()
         .map(Tree::site)
@@ -289,7 +291,7 @@ fn node(step: Op<Tree>) -> Tree {
     {
         site.rank = rank + 1;
     }
-    Tree::at(site, step)
+    Tree::at(site, op)
 }
 
 impl PartialEq for Tree {

@@ -5,7 +5,7 @@
 //! [atoms](GoalProof::atoms), and after these in a certificate those of its quantities. All else has the names of
 //! the [checker](super::check).
 
-use super::check::{MAX_VARIABLES, Node, Polynomial};
+use super::check::{MAX_VARIABLES, Node, Polynomial, Powers};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -47,25 +47,23 @@ impl<'de> Deserialize<'de> for Polynomial {
 /// Returns what is wrong with a term: it must be an integer other than 0 of at most 127 bits, with powers of different
 /// variables, and no other term may have the same powers.
 fn polynomial(terms: &[Term]) -> Result<Polynomial, String> {
-    let term = |(number, powers): &Term| {
-        let n = number.parse::<i128>().ok().filter(|n| *n != 0);
-        let n = n.ok_or_else(|| {
-            format!("the coefficient {number} is not an integer between 1 and 2¹²⁷ in size")
-        })?;
-        let mut all = [0; MAX_VARIABLES];
-        for (x, power) in powers {
-            match all.get_mut(*x) {
-                Some(own) if *own == 0 && *power > 0 => *own = *power,
-                _ => {
-                    return Err(format!("{power} is not the only power of one of {MAX_VARIABLES} variables"));
-                }
-            }
-        }
-        Ok((all, n))
-    };
-    let sum = Polynomial::new(terms.iter().map(term).collect::<Result<_, _>>()?);
+    let sum = Polynomial::new(terms.iter().map(parse_term).collect::<Result<_, _>>()?);
     let sum = sum.ok().filter(|sum| sum.terms().len() == terms.len());
     sum.ok_or_else(|| "two terms have the same powers".to_string())
+}
+
+fn parse_term((number, powers): &Term) -> Result<(Powers, i128), String> {
+    let n = number.parse::<i128>().ok().filter(|n| *n != 0);
+    let n =
+        n.ok_or_else(|| format!("the coefficient {number} is not an integer between 1 and 2¹²⁷ in size"))?;
+    let mut all = [0; MAX_VARIABLES];
+    for (x, power) in powers {
+        match all.get_mut(*x) {
+            Some(known) if *known == 0 && *power > 0 => *known = *power,
+            _ => return Err(format!("{power} is not the only power of one of {MAX_VARIABLES} variables")),
+        }
+    }
+    Ok((all, n))
 }
 
 #[cfg(test)]

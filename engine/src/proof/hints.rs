@@ -38,51 +38,59 @@ const POINTS: usize = 4;
 /// # Examples
 /// ```
 /// use provable::formula::{Hypothesis, Relation, claim::positive};
-/// use provable::{number::Tree, proof::{prove, sufficient_hypothesis}};
+/// use provable::{number::Tree, proof::{prove, sufficient_hypotheses}};
 /// let [f, g] = ["f", "g"].map(|name| Tree::symbol(name));
 /// let converging = Hypothesis::new(Relation::Positive, f.clone());
 /// let claim = positive("real image", &f * &g / (&g - &f)).assuming([&converging]);
-/// let hypotheses = sufficient_hypothesis(&claim, &prove(&claim).unwrap_err());
+/// let hypotheses = sufficient_hypotheses(&claim, &prove(&claim).unwrap_err());
 /// assert_eq!(hypotheses[0].to_string(), "g > f");
 /// assert!(prove(&claim.assuming([&hypotheses[0]])).is_ok());
 /// ```
-pub fn sufficient_hypothesis(statement: &Statement, reason: &ProofError) -> Vec<Hypothesis> {
+pub fn sufficient_hypotheses(statement: &Statement, reason: &ProofError) -> Vec<Hypothesis> {
     if let ProofError::TooLarge(_) | ProofError::Premise(Premise::TooLarge(..)) = reason {
         return Vec::new(); // So would be the proofs under more hypotheses.
     }
     let symbols = independent_symbols(statement);
-    let is_free = |name: &&str| *name != POWER && *name != PRECISION && !SCALES.contains(name);
-    let own: Vec<_> = symbols.iter().copied().filter(is_free).take(MAX_SYMBOLS).map(Tree::symbol).collect();
-    let differences = own.iter().flat_map(|x| own.iter().filter(move |y| x != *y).map(move |y| x - y));
-    let is_own = |of: &Tree| of.first_symbol().is_some() && of.symbols().iter().all(|x| symbols.contains(x));
-    let is_short = |of: &Tree| of.size() <= MAX_OBSTACLE;
-    let simple = own.iter().cloned().chain(differences).chain(own.iter().map(|x| -x));
-    let weakest = |value: Tree| {
-        let candidates = [Relation::NonNegative, Relation::Positive];
-        let mut candidates = candidates.into_iter().map(|relation| Hypothesis::new(relation, value.clone()));
-        candidates.find(|candidate| suffices(statement, candidate, &symbols))
-    };
-    // Under the hypotheses of the statement, the second implies the first.
-    let follows = |first: &Hypothesis, second: &Hypothesis| {
-        let proposition = Proposition::Sign(first.relation, first.value.clone());
-        prove(&statement.with_proposition(proposition).assuming([second])).is_ok()
-    };
-
     let mut found: Vec<Hypothesis> = Vec::new();
-    for new in simple.filter_map(weakest) {
-        if found.iter().all(|known| !follows(known, &new)) {
-            found.retain(|known| !follows(&new, known));
+    for new in simple_quantities(&symbols).iter().filter_map(|of| weakest(statement, of, &symbols)) {
+        if found.iter().all(|known| !follows(statement, known, &new)) {
+            found.retain(|known| !follows(statement, &new, known));
             found.push(new);
         }
     }
-    let obstacle = obstacle(reason).filter(is_own).filter(is_short).into_iter();
-    for new in obstacle.flat_map(|of| [-&of, of]).rev().filter_map(weakest) {
-        if found.iter().all(|known| !follows(known, &new) && !follows(&new, known)) {
+    let obstacle = obstacle(reason).filter(|of| {
+        let mut names = of.symbols().into_iter();
+        of.size() <= MAX_OBSTACLE && of.first_symbol().is_some() && names.all(|x| symbols.contains(&x))
+    });
+    let signs = obstacle.into_iter().flat_map(|of| [of.clone(), -of]);
+    for new in signs.filter_map(|of| weakest(statement, &of, &symbols)) {
+        if found.iter().all(|known| !follows(statement, known, &new) && !follows(statement, &new, known)) {
             found.push(new);
         }
     }
     found.truncate(MAX_HINTS);
     found
+}
+
+/// Returns the first symbols, their differences and their opposites.
+fn simple_quantities(symbols: &[&'static str]) -> Vec<Tree> {
+    let names = symbols.iter().filter(|name| ![POWER, PRECISION].contains(name) && !SCALES.contains(name));
+    let values: Vec<_> = names.take(MAX_SYMBOLS).map(|name| Tree::symbol(name)).collect();
+    let differences = values.iter().flat_map(|x| values.iter().filter(move |y| x != *y).map(move |y| x - y));
+    values.iter().cloned().chain(differences).chain(values.iter().map(|x| -x)).collect()
+}
+
+/// Returns the weaker of the hypotheses that a quantity is not negative, or is positive, that suffices.
+fn weakest(statement: &Statement, value: &Tree, symbols: &[&'static str]) -> Option<Hypothesis> {
+    let relations = [Relation::NonNegative, Relation::Positive].into_iter();
+    let mut candidates = relations.map(|relation| Hypothesis::new(relation, value.clone()));
+    candidates.find(|candidate| suffices(statement, candidate, symbols))
+}
+
+/// Returns `true` if, under the hypotheses of the statement, the second hypothesis implies the first.
+fn follows(statement: &Statement, first: &Hypothesis, second: &Hypothesis) -> bool {
+    let proposition = Proposition::Sign(first.relation, first.value.clone());
+    prove(&statement.with_proposition(proposition).assuming([second])).is_ok()
 }
 
 /// Returns `true` if a hypothesis makes a statement provable, is not its claim, and is consistent with its
@@ -92,14 +100,13 @@ fn suffices(statement: &Statement, candidate: &Hypothesis, symbols: &[&'static s
     let hypotheses = [statement.hypotheses(), &[strict]].concat();
     let claim = statement.clone().assuming([candidate]);
     let points: Vec<_> = constructed_points(&hypotheses, symbols).take(POINTS).collect();
-    let is_claimed = |proposition: &Proposition| match proposition {
-        Proposition::Sign(_, of) => prove(&equal("", of, &candidate.value)).is_ok(),
-        _ => false,
-    };
     !points.is_empty()
         && points.iter().all(|point| !matches!(check(&claim, point), Verdict::Fails(..)))
         && prove(&claim).is_ok()
-        && statement.goals().iter().all(|goal| !is_claimed(&goal.proposition))
+        && statement.goals().iter().all(|goal| match &goal.proposition {
+            Proposition::Sign(_, of) => prove(&equal("", of, &candidate.value)).is_err(),
+            _ => true,
+        })
 }
 
 /// Returns the formula whose sign is missing, in the symbols of the statement and without common factors.
@@ -111,15 +118,16 @@ fn obstacle(reason: &ProofError) -> Option<Tree> {
         | ProofError::UndecidedBranch(value) => value,
         _ => return None,
     };
-    let in_own_symbols = || {
-        context.assumptions.iter().rev().fold(value.clone(), |value, supposed| match supposed.usage {
+    let assumptions = context.assumptions.iter().rev();
+    let value = effort::bounded(|| {
+        assumptions.fold(value.clone(), |value, assumption| match assumption.usage {
             AssumptionUse::Pivot(_, _, Some(slack)) => {
-                value.replace(&Monomial::of(slack), &supposed.slack_value())
+                value.replace(&Monomial::of(slack), &assumption.slack_value())
             }
             _ => value,
         })
-    };
-    let num = effort::bounded(in_own_symbols)?.num().clone();
+    })?;
+    let num = value.num();
     let rest = num.checked_div(&num.common_monomial().into())?;
     (rest.terms().len() <= MAX_OBSTACLE as usize).then(|| formula(&rest, context))
 }
@@ -147,7 +155,7 @@ mod tests {
     }
 
     fn hints(claim: &Statement) -> Vec<String> {
-        sufficient_hypothesis(claim, &prove(claim).unwrap_err()).iter().map(Hypothesis::to_string).collect()
+        sufficient_hypotheses(claim, &prove(claim).unwrap_err()).iter().map(Hypothesis::to_string).collect()
     }
 
     /// Returns the image distance of a thin lens for the object distance `s`.
@@ -287,7 +295,7 @@ mod tests {
             let given = above_zero(parts[(j + k) % 5].clone());
             for claim in [non_negative("", &of), positive("", &of)].map(|claim| claim.assuming([&given])) {
                 let Err(reason) = prove(&claim) else { continue };
-                let hypotheses = sufficient_hypothesis(&claim, &reason);
+                let hypotheses = sufficient_hypotheses(&claim, &reason);
                 assert!(hypotheses.len() <= MAX_HINTS);
                 for hypothesis in &hypotheses {
                     let claim = claim.clone().assuming([hypothesis]);

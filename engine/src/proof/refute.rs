@@ -111,13 +111,15 @@ impl PointSet {
     pub(super) fn refute_at_other_points(&self, statement: &Statement) -> Option<Refutation> {
         let ([integer, constructed], search) = (&self.first, Search::of(statement));
         let at_integer = integer.iter().skip(8).find_map(|point| search.refute_at(point));
-        let at_pole = || constructed.iter().find_map(|point| search.refute_at_pole(point));
-        at_integer.or_else(at_pole).or_else(|| {
-            let all = || {
-                let integer = integer_points(&self.hypotheses, &self.symbols).collect();
-                [integer, constructed_points(&self.hypotheses, &self.symbols).collect()]
-            };
-            self.all.get_or_init(all).iter().flatten().find_map(|point| search.refute_at(point))
+        at_integer
+            .or_else(|| constructed.iter().find_map(|point| search.refute_at_pole(point)))
+            .or_else(|| self.all().iter().flatten().find_map(|point| search.refute_at(point)))
+    }
+
+    fn all(&self) -> &[Vec<Point>; 2] {
+        self.all.get_or_init(|| {
+            let integer = integer_points(&self.hypotheses, &self.symbols).collect();
+            [integer, constructed_points(&self.hypotheses, &self.symbols).collect()]
         })
     }
 }
@@ -128,10 +130,10 @@ pub fn tightest_point(statement: &Statement) -> Option<(Point, Exact)> {
     let (symbols, compiled) = (independent_symbols(statement), Compiled::new(statement));
     let integer = integer_points(statement.hypotheses(), &symbols).take(TIGHTEST_POINT_TRIALS);
     let points = integer.chain(constructed_points(statement.hypotheses(), &symbols));
-    let shares = points.filter_map(|point| compiled.bound_fraction(&point).map(|share| (point, share)));
+    let fractions = points.filter_map(|point| Some((compiled.bound_fraction(&point)?, point)));
     // Returns the first of several maxima, unlike `max_by`.
-    let tightest = shares.min_by(|(_, a), (_, b)| b.cmp(a));
-    tightest.map(|(point, share)| (point.restricted_to(&symbols.into_iter().collect()), share))
+    let (fraction, point) = fractions.min_by(|(a, _), (b, _)| b.cmp(a))?;
+    Some((point.restricted_to(&symbols.into_iter().collect()), fraction))
 }
 
 /// Number of integer points that [`tightest_point`] tries.

@@ -19,29 +19,29 @@ impl Hypothesis {
     /// Formats the hypothesis, with the names that `name` returns for subformulas: `λ < R`.
     pub fn typeset(&self, name: &dyn Fn(&Tree) -> Option<Name>) -> String {
         let text = |tree: &Tree| tree.typeset(Notation::Text, name);
-        let said = |left: &Tree, turned: bool, right: &Tree| {
-            let between =
-                if turned { exchanged(self.relation).to_string() } else { self.relation.to_string() };
-            format!("{} {between} {}", text(left), text(right))
-        };
         if let Some((x, lower, upper)) = self.interval() {
             return match self.distance() {
                 Some((distance, most)) => format!("{} ≤ {}", text(&distance.abs()), text(most)),
                 None => format!("{} ≤ {} ≤ {}", text(lower), text(&Tree::symbol(x)), text(upper)),
             };
         }
-        let zero = Tree::int(0);
-        let is_symbol = |tree: &Tree| matches!(tree.op(), Op::Symbol(_));
+        let (left, is_exchanged, right) = self.sides(name(&self.value).is_some());
+        let relation = if is_exchanged { exchanged(self.relation) } else { &self.relation.to_string() };
+        format!("{} {relation} {}", text(&left), text(&right))
+    }
+
+    /// Returns the two sides, and whether they are exchanged.
+    fn sides(&self, is_named: bool) -> (Tree, bool, Tree) {
         match self.value.op() {
-            _ if name(&self.value).is_some() => said(&self.value, false, &zero),
-            Op::Neg(a) => said(a, true, &zero),
-            Op::Sub(a, b) => match a.op() {
-                Op::Neg(a) => said(a, true, &-b),
+            Op::Neg(a) if !is_named => (a.clone(), true, Tree::int(0)),
+            Op::Sub(a, b) if !is_named => match (a.op(), b.op()) {
+                (Op::Neg(a), _) => (a.clone(), true, -b),
+                (Op::Symbol(_), _) => (a.clone(), false, b.clone()),
                 // A single symbol comes first.
-                _ if is_symbol(b) && !is_symbol(a) => said(b, true, a),
-                _ => said(a, false, b),
+                (_, Op::Symbol(_)) => (b.clone(), true, a.clone()),
+                _ => (a.clone(), false, b.clone()),
             },
-            _ => said(&self.value, false, &zero),
+            _ => (self.value.clone(), false, Tree::int(0)),
         }
     }
 }

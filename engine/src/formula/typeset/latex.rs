@@ -47,18 +47,7 @@ pub(super) fn script(kind: char, inner: &str) -> String {
 pub fn latex(symbol: &str) -> String {
     let mut result = String::new();
     let mut rest = symbol;
-    // A command ends where no letter follows.
-    let push = |result: &mut String, next: &str| {
-        let command = result
-            .rsplit_once('\\')
-            .is_some_and(|(_, name)| !name.is_empty() && name.chars().all(|c| c.is_ascii_alphabetic()));
-        if command && next.starts_with(|c: char| c.is_ascii_alphabetic()) {
-            result.push(' ');
-        }
-        *result += next;
-    };
     while let Some(c) = rest.chars().next() {
-        let run = |belongs: &dyn Fn(char) -> bool| rest.find(|c| !belongs(c)).unwrap_or(rest.len());
         let after = &rest[c.len_utf8()..];
         if c == '_' || c == '^' {
             let inner = match after.strip_prefix('{').and_then(|inner| inner.split_once('}')) {
@@ -67,25 +56,25 @@ pub fn latex(symbol: &str) -> String {
                     inner
                 }
                 None => {
-                    let end = after.find(|c: char| !c.is_alphanumeric()).unwrap_or(after.len());
+                    let end = prefix_len(after, char::is_alphanumeric);
                     rest = &after[end..];
                     &after[..end]
                 }
             };
             result += &script(c, &latex(inner));
         } else if subscript(c).is_some() {
-            let end = run(&|c| subscript(c).is_some());
+            let end = prefix_len(rest, |c| subscript(c).is_some());
             result += &script('_', &rest[..end].chars().filter_map(subscript).collect::<String>());
             rest = &rest[end..];
         } else if superscript(c).is_some() {
-            let end = run(&|c| superscript(c).is_some());
+            let end = prefix_len(rest, |c| superscript(c).is_some());
             result += &script('^', &rest[..end].chars().filter_map(superscript).collect::<String>());
             rest = &rest[end..];
         } else if let Some(left) = after.strip_prefix(DOT) {
             push(&mut result, &format!("\\dot{{{}}}", latex(&c.to_string())));
             rest = left;
         } else if c.is_ascii_alphabetic() {
-            let end = run(&|c| c.is_ascii_alphabetic());
+            let end = prefix_len(rest, |c| c.is_ascii_alphabetic());
             // A letter with a dot does not belong to the word before it.
             let end = if rest[end..].starts_with(DOT) { end - 1 } else { end };
             match &rest[..end] {
@@ -95,7 +84,7 @@ pub fn latex(symbol: &str) -> String {
             }
             rest = &rest[end..];
         } else {
-            match LETTERS.iter().find(|(own, _)| *own == c) {
+            match LETTERS.iter().find(|(letter, _)| *letter == c) {
                 Some((_, command)) => push(&mut result, command),
                 None => result.push(c),
             }
@@ -103,4 +92,20 @@ pub fn latex(symbol: &str) -> String {
         }
     }
     result
+}
+
+/// Appends a symbol or command; a space separates it from a command if it begins with a letter.
+fn push(result: &mut String, next: &str) {
+    let ends_with_command = result
+        .rsplit_once('\\')
+        .is_some_and(|(_, name)| !name.is_empty() && name.chars().all(|c| c.is_ascii_alphabetic()));
+    if ends_with_command && next.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        result.push(' ');
+    }
+    *result += next;
+}
+
+/// Returns the length of the characters at the beginning of a text that satisfy a condition.
+fn prefix_len(text: &str, is_part: impl Fn(char) -> bool) -> usize {
+    text.find(|c| !is_part(c)).unwrap_or(text.len())
 }

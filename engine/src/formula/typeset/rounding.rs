@@ -13,7 +13,7 @@ use crate::number::tree::Op::{self, *};
 
 /// Returns the name and the content of the brackets for a rounded formula.
 pub(super) fn brackets(of: &Tree) -> (&'static str, Tree) {
-    if rounds_each_step(of) { ("fl", steps(of)) } else { ("nearest", of.clone()) }
+    if rounds_each_op(of) { ("fl", without_implied_roundings(of)) } else { ("nearest", of.clone()) }
 }
 
 /// Returns the name of the brackets, `fl` or `nearest`, in which the content of a rounding is written
@@ -43,11 +43,11 @@ fn scaled(tree: &Tree) -> Option<&Tree> {
 }
 
 /// Returns `true` if every operation of a rounded formula is rounded as well.
-fn rounds_each_step(of: &Tree) -> bool {
+fn rounds_each_op(of: &Tree) -> bool {
     match of.op() {
-        _ if scaled(of).is_some() => scaled(of).is_some_and(rounds_each_step),
-        Neg(a) => rounds_each_step(a),
-        step if is_operation(of) => step.operands().all(is_operand),
+        _ if scaled(of).is_some() => scaled(of).is_some_and(rounds_each_op),
+        Neg(a) => rounds_each_op(a),
+        op if is_operation(of) => op.operands().all(is_operand),
         _ => true,
     }
 }
@@ -61,24 +61,26 @@ fn is_operand(tree: &Tree) -> bool {
     }
 }
 
-/// Returns the formula without the roundings implied by its position in fl( ).
-fn steps(of: &Tree) -> Tree {
+/// Returns an operation without those roundings of its operands that their positions in fl( ) imply.
+fn without_implied_roundings(of: &Tree) -> Tree {
     let first = std::cell::Cell::new(true);
-    let step = of.op().map(|operand| {
+    let op = of.op().map(|operand| {
         let is_left = first.replace(false);
         match operand.op() {
-            Rounded(inner) if is_operation(of) && is_implied(of, is_left, inner) => steps(inner),
+            Rounded(inner) if is_operation(of) && is_implied(of, is_left, inner) => {
+                without_implied_roundings(inner)
+            }
             _ => operand.clone(),
         }
     });
-    of.with_op(step)
+    of.with_op(op)
 }
 
 /// Returns `true` if the position of an operand in fl( ), left or right, implies its rounding.
 fn is_implied(of: &Tree, is_left: bool, operand: &Tree) -> bool {
     is_operation(operand)
         && scaled(operand).is_none()
-        && rounds_each_step(operand)
+        && rounds_each_op(operand)
         && !is_simplified(operand)
         && match (of.op(), operand.op()) {
             (Mul(..), Div(..)) | (Div(..), Div(..)) => false,

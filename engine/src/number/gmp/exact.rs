@@ -81,8 +81,8 @@ impl Field for Exact {
 
     const IN_PLACE: bool = true;
 
-    fn assign_op(&mut self, step: Op<&Self>) -> bool {
-        match step {
+    fn assign_op(&mut self, op: Op<&Self>) -> bool {
+        match op {
             Op::Int(n) => self.0.assign(n),
             Op::Neg(a) => self.0.assign(-&a.0),
             Op::Add(a, b) => self.0.assign(&a.0 + &b.0),

@@ -226,8 +226,8 @@ impl Field for Mpfr {
 
     const IN_PLACE: bool = true;
 
-    fn assign_op(&mut self, step: Op<&Self>) -> bool {
-        match step {
+    fn assign_op(&mut self, op: Op<&Self>) -> bool {
+        match op {
             Op::Int(n) => self.0 = Small(n),
             Op::Neg(Mpfr(Rounded(a))) => self.0.put(a.prec(), -a),
             Op::Neg(a) => *self = -a,

@@ -123,14 +123,14 @@ impl<T: Field> Op<&T> {
         match self {
             Op::Symbol(name) => Some(symbol(name)),
             Op::Div(_, b) if !b.is_invertible() => None,
-            step => step.arithmetic().or_else(|| extra_ops(step)),
+            op => op.arithmetic().or_else(|| extra_ops(op)),
         }
     }
 }
 
 /// Evaluates ⟨·⟩ and min, for [`Tree::eval`](super::Tree::eval).
-pub fn piecewise_ops<T: PositivePart>(step: Op<&T>) -> Option<T> {
-    match step {
+pub fn piecewise_ops<T: PositivePart>(op: Op<&T>) -> Option<T> {
+    match op {
         Op::PositivePart(a) => Some(a.positive_part()),
         Op::Min(a, b) => Some(a.min(b)),
         _ => None,
@@ -138,14 +138,14 @@ pub fn piecewise_ops<T: PositivePart>(step: Op<&T>) -> Option<T> {
 }
 
 /// Evaluates eˣ, for [`Tree::eval`](super::Tree::eval).
-pub fn smooth_ops<T: Exponential>(step: Op<&T>) -> Option<T> {
-    match step {
+pub fn smooth_ops<T: Exponential>(op: Op<&T>) -> Option<T> {
+    match op {
         Op::Exp(a) => Some(a.exp()),
         _ => None,
     }
 }
 
 /// Evaluates eˣ, ⟨·⟩ and min, for [`Tree::eval`](super::Tree::eval).
-pub fn all_ops<T: PositivePart + Exponential>(step: Op<&T>) -> Option<T> {
-    smooth_ops(step).or_else(|| piecewise_ops(step))
+pub fn all_ops<T: PositivePart + Exponential>(op: Op<&T>) -> Option<T> {
+    smooth_ops(op).or_else(|| piecewise_ops(op))
 }

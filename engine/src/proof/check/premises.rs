@@ -1,8 +1,7 @@
 //! The premises of a statement, which hold for every proof of it.
 
-use crate::formula::Hypothesis;
 use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
-use crate::formula::statement::{Sequence, Statement};
+use crate::formula::statement::{Computed, Sequence, Statement};
 use crate::number::Tree;
 use crate::number::tree::Op;
 use std::iter;
@@ -87,54 +86,65 @@ pub fn check_size<'t>(trees: impl Iterator<Item = &'t Tree> + Clone) -> Result<(
 ///   its step and the hypotheses of its limit do not depend on the power; its closed form and the bound of
 ///   its distance from that do not depend on members or computed symbols; the bounds of other quantities do
 ///   not depend on members.
-fn check_names<'t>(statement: &'t Statement) -> Result<(), Premise> {
-    fn refuse<'t>(
-        trees: impl Iterator<Item = &'t Tree>,
-        is_refused: impl Fn(&'static str) -> bool,
-    ) -> Result<(), Premise> {
-        let mut symbols = trees.flat_map(Tree::symbols);
-        symbols.find(|name| is_refused(name)).map_or(Ok(()), |name| Err(Premise::ReservedName(name)))
-    }
-    let is_member = |name| name == MEMBERS[0];
+fn check_names(statement: &Statement) -> Result<(), Premise> {
     let is_perturbed = statement.conclusion().is_some_and(|sequence| sequence.is_perturbed());
     let is_reserved = |name| {
-        let is_allowed = is_perturbed && is_member(name);
+        let is_allowed = is_perturbed && name == MEMBERS[0];
         is_name_of_proof(name) || (MEMBERS.contains(&name) && !is_allowed)
     };
     refuse(statement.trees(), is_reserved)?;
-    let mut variables = statement.goals().iter().filter_map(|goal| goal.proposition.variable());
-    variables.find(|name| is_reserved(name)).map_or(Ok(()), |name| Err(Premise::ReservedName(name)))?;
+    refuse_names(statement.goals().iter().filter_map(|goal| goal.proposition.variable()), is_reserved)?;
 
     let computed = statement.computed();
-    let is_computed_from = |i: usize, name| computed[i..].iter().any(|computed| computed.symbol == name);
-    let is_computed = |name| is_computed_from(0, name);
-    let mut predefined = [POWER, PRECISION].into_iter().chain(MEMBERS).chain(SCALES);
-    predefined.find(|name| is_computed(*name)).map_or(Ok(()), |name| Err(Premise::ReservedName(name)))?;
+    let predefined = [POWER, PRECISION].into_iter().chain(MEMBERS).chain(SCALES);
+    refuse_names(predefined, |name| is_among(name, computed))?;
 
-    let values = |all: &'t [Hypothesis]| all.iter().map(|hypothesis| &hypothesis.value);
-    let hypotheses = values(statement.hypotheses());
+    let hypotheses = statement.hypotheses().iter().map(|hypothesis| &hypothesis.value);
     if let Some(Sequence { start, step, ratio, limit, member, within }) = statement.conclusion() {
         refuse(start.iter().chain([ratio]).chain(limit), |name| {
-            name == POWER || MEMBERS.contains(&name) || is_computed(name)
+            name == POWER || MEMBERS.contains(&name) || is_among(name, computed)
         })?;
         refuse(step.iter(), |name| name == POWER)?;
         // An assumption about one power need not hold as the power tends to 0.
         refuse(hypotheses.clone().filter(|_| limit.is_some()), |name| name == POWER)?;
-        let bounds = || within.iter().map(|(_, bound)| bound);
-        refuse(member.iter().chain(bounds().take(1)), |name| is_member(name) || is_computed(name))?;
-        refuse(bounds(), is_member)?;
+        let bounds = within.iter().map(|(_, bound)| bound);
+        refuse(member.iter().chain(bounds.clone().take(1)), |name| {
+            name == MEMBERS[0] || is_among(name, computed)
+        })?;
+        refuse(bounds, |name| name == MEMBERS[0])?;
     }
-    let rename = |error| match error {
-        Premise::ReservedName(name) => Premise::HypothesisOnComputed(name),
-        error => error,
-    };
-    refuse(hypotheses.chain(values(statement.invariants())), is_computed).map_err(rename)?;
-    computed.iter().enumerate().try_for_each(|(i, computed)| {
-        refuse(iter::once(&computed.formula), |name| is_computed_from(i, name)).map_err(rename)
-    })
+    let invariants = statement.invariants().iter().map(|invariant| &invariant.value);
+    refuse_computed(hypotheses.chain(invariants), computed)?;
+    (0..computed.len()).try_for_each(|i| refuse_computed(iter::once(&computed[i].formula), &computed[i..]))
 }
 
-/// Returns `true` if `name` looks like that of an error, a place or another quantity of a proof.
+/// Rejects formulas that contain a name for which `is_refused` holds.
+fn refuse<'t>(
+    trees: impl Iterator<Item = &'t Tree>,
+    is_refused: impl Fn(&'static str) -> bool,
+) -> Result<(), Premise> {
+    refuse_names(trees.flat_map(Tree::symbols), is_refused)
+}
+
+fn refuse_names(
+    mut names: impl Iterator<Item = &'static str>,
+    is_refused: impl Fn(&'static str) -> bool,
+) -> Result<(), Premise> {
+    names.find(|name| is_refused(name)).map_or(Ok(()), |name| Err(Premise::ReservedName(name)))
+}
+
+/// Rejects formulas that contain the symbol of a computed quantity.
+fn refuse_computed<'t>(trees: impl Iterator<Item = &'t Tree>, computed: &[Computed]) -> Result<(), Premise> {
+    let mut names = trees.flat_map(Tree::symbols);
+    let found = names.find(|name| is_among(name, computed));
+    found.map_or(Ok(()), |name| Err(Premise::HypothesisOnComputed(name)))
+}
+
+fn is_among(name: &str, computed: &[Computed]) -> bool {
+    computed.iter().any(|computed| computed.symbol == name)
+}
+
+/// Returns `true` if `name` has the form of that of an error, a parameter or another quantity of a proof.
 fn is_name_of_proof(name: &str) -> bool {
     let digits = name.strip_prefix(['e', 's', 't']).unwrap_or_default();
     !digits.is_empty() && digits.chars().all(|digit| ('₀'..='₉').contains(&digit))

@@ -168,14 +168,14 @@ impl<'p, S: Source> Reader<'p, S> {
         if let Some(value) = self.state.values.get(&formula) {
             return Ok(value.clone());
         }
-        let value = self.value_of_step(self.state.problem.table.step(formula)?)?;
+        let value = self.value_of_op(self.state.problem.table.op(formula)?)?;
         self.state.values.insert(formula, value.clone());
         Ok(value)
     }
 
-    fn value_of_step(&mut self, step: Op<usize>) -> Checked<Quotient> {
+    fn value_of_op(&mut self, op: Op<usize>) -> Checked<Quotient> {
         use Op::*;
-        Ok(match step {
+        Ok(match op {
             Symbol(name) => match self.state.places.get(name) {
                 Some(value) => value.clone(),
                 None => self.state.variable(Atom::Own(name))?.into(),
@@ -197,7 +197,7 @@ impl<'p, S: Source> Reader<'p, S> {
                 let is_open = self.sign_of_sum(&[(1, a)], true)?.implies(Sign::NonNegative);
                 if is_open { self.value(a)? } else { Polynomial::zero().into() }
             }
-            Min(a, b) if self.state.problem.table.step(a)? == Neg(b) => self.opposite_size(a, b)?,
+            Min(a, b) if self.state.problem.table.op(a)? == Neg(b) => self.opposite_size(a, b)?,
             Min(a, b) => self.minimum(a, b)?,
             Rounded(a) => self.rounded(a)?,
         })

@@ -75,11 +75,11 @@ impl Table {
 
     /// Adds a formula and returns its number.
     fn add(&mut self, tree: &Tree) -> Checked<usize> {
-        Table::numbered(tree, |step, part| {
+        Table::numbered(tree, |op, part| {
             let next = self.formulas.len();
-            let number = *self.numbers.entry(step).or_insert(next);
+            let number = *self.numbers.entry(op).or_insert(next);
             if number == next {
-                self.formulas.push((step, part.clone()));
+                self.formulas.push((op, part.clone()));
             }
             Ok(number)
         })
@@ -87,17 +87,17 @@ impl Table {
 
     /// Returns the number of a formula.
     pub fn find(&self, tree: &Tree) -> Checked<usize> {
-        Table::numbered(tree, |step, _| self.number(&step))
+        Table::numbered(tree, |op, _| self.number(&op))
     }
 
     /// Returns the number of the formula with this last operation.
-    pub fn number(&self, step: &Op<usize>) -> Checked<usize> {
-        self.numbers.get(step).copied().ok_or(Refusal::Unknown)
+    pub fn number(&self, op: &Op<usize>) -> Checked<usize> {
+        self.numbers.get(op).copied().ok_or(Refusal::Unknown)
     }
 
     /// Returns the last operation of a formula.
-    pub fn step(&self, formula: usize) -> Checked<Op<usize>> {
-        self.formulas.get(formula).map(|(step, _)| *step).ok_or(Refusal::Unknown)
+    pub fn op(&self, formula: usize) -> Checked<Op<usize>> {
+        self.formulas.get(formula).map(|(op, _)| *op).ok_or(Refusal::Unknown)
     }
 
     /// Returns a formula.
@@ -154,11 +154,11 @@ impl Table {
     }
 
     fn add_atoms(&mut self, hypotheses: &[&Hypothesis]) -> Checked<()> {
-        for step in self.formulas.iter().map(|(step, _)| *step).collect::<Vec<_>>() {
-            match step {
+        for op in self.formulas.iter().map(|(op, _)| *op).collect::<Vec<_>>() {
+            match op {
                 Op::Symbol(name) => self.add_atom(Atom::Own(name)),
                 Op::Exp(exponent) => self.add_exponentials(exponent)?,
-                Op::Min(negated, of) if self.step(negated)? == Op::Neg(of) => {
+                Op::Min(negated, of) if self.op(negated)? == Op::Neg(of) => {
                     self.add_atom(Atom::Size(of));
                     self.add_atom(Atom::Factor(of));
                 }

@@ -57,8 +57,8 @@ pub enum Operator {
 }
 
 impl Operator {
-    fn of(step: &Op<Tree>) -> Option<(Self, &Tree, &Tree)> {
-        match step {
+    fn of(op: &Op<Tree>) -> Option<(Self, &Tree, &Tree)> {
+        match op {
             Op::Add(a, b) => Some((Operator::Add, a, b)),
             Op::Sub(a, b) => Some((Operator::Sub, a, b)),
             Op::Mul(a, b) => Some((Operator::Mul, a, b)),
@@ -80,13 +80,15 @@ impl Operator {
     }
 
     fn commutes(self) -> bool {
-        match self {
-            Operator::Add | Operator::Mul | Operator::Min => true,
-            Operator::Sub | Operator::Div => false,
-        }
+        !matches!(self, Operator::Sub | Operator::Div)
     }
 
-    fn step(self, a: Tree, b: Tree) -> Op<Tree> {
+    /// Returns the operands of an operation with this operator.
+    fn operands(self, op: &Op<Tree>) -> Option<(&Tree, &Tree)> {
+        Operator::of(op).filter(|(operator, ..)| *operator == self).map(|(_, a, b)| (a, b))
+    }
+
+    fn op(self, a: Tree, b: Tree) -> Op<Tree> {
         match self {
             Operator::Add => Op::Add(a, b),
             Operator::Sub => Op::Sub(a, b),
@@ -144,54 +146,39 @@ impl Mutation {
 
     /// Applies the mutation to an operation; `None` if it is not applicable.
     fn mutate(self, tree: &Tree) -> Option<Tree> {
-        match self {
-            Mutation::Opposite(operator) => {
-                let (found, a, b) = Operator::of(tree.op())?;
-                (found == operator).then_some(())?;
-                Some(tree.with_op(operator.opposite()?.step(a.clone(), b.clone())))
+        match (self, tree.op()) {
+            (Mutation::Opposite(operator), op) => {
+                let (a, b) = operator.operands(op)?;
+                Some(tree.with_op(operator.opposite()?.op(a.clone(), b.clone())))
             }
-            Mutation::FirstOperand(operator)
-            | Mutation::SecondOperand(operator)
-            | Mutation::Swap(operator) => {
-                let (found, a, b) = Operator::of(tree.op())?;
-                (found == operator).then_some(())?;
-                Some(match self {
-                    Mutation::FirstOperand(_) => a.clone(),
-                    Mutation::SecondOperand(_) => b.clone(),
-                    _ => tree.with_op(operator.step(b.clone(), a.clone())),
-                })
+            (Mutation::FirstOperand(operator), op) => operator.operands(op).map(|(a, _)| a.clone()),
+            (Mutation::SecondOperand(operator), op) => operator.operands(op).map(|(_, b)| b.clone()),
+            (Mutation::Swap(operator), op) => {
+                let (a, b) = operator.operands(op)?;
+                Some(tree.with_op(operator.op(b.clone(), a.clone())))
             }
-            Mutation::Maximum => {
-                let Op::Min(a, b) = tree.op() else { return None };
-                let negated = |a: &Tree| tree.with_op(Op::Neg(a.clone()));
-                Some(negated(&tree.with_op(Op::Min(negated(a), negated(b)))))
+            (Mutation::Maximum, Op::Min(a, b)) => {
+                let [a, b] = [a, b].map(|operand| tree.with_op(Op::Neg(operand.clone())));
+                Some(tree.with_op(Op::Neg(tree.with_op(Op::Min(a, b)))))
             }
-            Mutation::DropSign => {
-                let Op::Neg(a) = tree.op() else { return None };
-                Some(a.clone())
-            }
-            Mutation::NegateExponent => {
-                let Op::Exp(a) = tree.op() else { return None };
+            (Mutation::NegateExponent, Op::Exp(a)) => {
                 Some(tree.with_op(Op::Exp(tree.with_op(Op::Neg(a.clone())))))
             }
-            Mutation::DropPositivePart => {
-                let Op::PositivePart(a) = tree.op() else { return None };
+            (Mutation::DropSign, Op::Neg(a)) | (Mutation::DropPositivePart, Op::PositivePart(a)) => {
                 Some(a.clone())
             }
-            Mutation::Integer(from, to) => {
-                let Op::Int(n) = tree.op() else { return None };
-                (*n == from).then(|| tree.with_op(Op::Int(to)))
-            }
-            Mutation::Symbol(index, from, to) => {
+            (Mutation::Integer(from, to), Op::Int(n)) if *n == from => Some(tree.with_op(Op::Int(to))),
+            (Mutation::Symbol(index, from, to), op) => {
                 let mut indices = 0..;
                 let mut is_applicable = false;
-                let step = tree.op().map(|operand| {
+                let op = op.map(|operand| {
                     let is_target = indices.next() == Some(index) && *operand.op() == Op::Symbol(from);
                     is_applicable |= is_target;
                     if is_target { operand.with_op(Op::Symbol(to)) } else { operand.clone() }
                 });
-                is_applicable.then(|| tree.with_op(step))
+                is_applicable.then(|| tree.with_op(op))
             }
+            _ => None,
         }
     }
 }
@@ -258,9 +245,8 @@ impl Mutant {
         if !self.affects(tree) {
             return true;
         }
-        let is_equal =
-            |after| prove(&statement.with_proposition(Proposition::Equal(tree.clone(), after))).is_ok();
-        registry.has_site(&tree.site()) && is_equal(self.rewrite(tree))
+        let equality = Proposition::Equal(tree.clone(), self.rewrite(tree));
+        registry.has_site(&tree.site()) && prove(&statement.with_proposition(equality)).is_ok()
             || self.mutate(tree).is_none()
                 && tree.op().operands().all(|operand| self.preserves(operand, statement, registry))
     }

@@ -188,8 +188,8 @@ impl<'a> Lines<'a> {
             let order = rounded.map(Result::unwrap_or_default).join(" ≥ ");
             all.extend(difference(*a, *b, reader).map(|decides| (decides, order)));
         }
-        for (i, step) in (0..).map_while(|i| Some((i, table.step(i).ok()?))) {
-            let (decides, branches) = match step {
+        for (i, op) in (0..).map_while(|i| Some((i, table.op(i).ok()?))) {
+            let (decides, branches) = match op {
                 Op::PositivePart(a) => (reader.value(a).ok(), [a, a]),
                 Op::Min(a, b) => (difference(b, a, reader), [a, b]),
                 _ => continue,
@@ -197,9 +197,9 @@ impl<'a> Lines<'a> {
             let (Some(decides), Ok(value)) = (decides, reader.value(i)) else { continue };
             let is_first = reader.value(branches[0]).is_ok_and(|of| of == value);
             let [first, second] = branches.map(|branch| self.formula(branch));
-            let follows = match step {
+            let follows = match op {
                 // The minimum of −x and x is −|x|.
-                Op::Min(a, b) if table.step(a) == Ok(Op::Neg(b)) => {
+                Op::Min(a, b) if table.op(a) == Ok(Op::Neg(b)) => {
                     format!("|{second}| = {}", if is_first { second.clone() } else { first })
                 }
                 _ if value.num.is_zero() => format!("{} = 0", self.formula(i)),

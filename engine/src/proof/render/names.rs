@@ -7,7 +7,7 @@ use crate::formula::name_of_rounding;
 use crate::formula::statement::Statement;
 use crate::number::Tree;
 use crate::proof::ProofError;
-use crate::proof::hints::sufficient_hypothesis;
+use crate::proof::hints::sufficient_hypotheses;
 use crate::proof::search::Quantity;
 use crate::proof::search::assumption::AssumptionUse;
 use crate::proof::search::context::Context;
@@ -49,7 +49,7 @@ impl ProofPrinter<'_> {
         format!("{message}, where {}", definitions.join(" and "))
     }
 
-    /// Returns the reason why a proof failed, and up to three [hypotheses](sufficient_hypothesis) with
+    /// Returns the reason why a proof failed, and up to three [hypotheses](sufficient_hypotheses) with
     /// which there is one.
     ///
     /// # Examples
@@ -68,7 +68,7 @@ impl ProofPrinter<'_> {
         if let Some(registry) = self.other_names(statement) {
             return ProofPrinter::new(&registry).explain(statement, reason);
         }
-        let hypotheses = self.registry.format_hypotheses(&sufficient_hypothesis(statement, reason));
+        let hypotheses = self.registry.format_hypotheses(&sufficient_hypotheses(statement, reason));
         let hint = if hypotheses.is_empty() { "" } else { "; it is proved if " };
         self.describe(statement, reason) + hint + &hypotheses.join(" or if ")
     }

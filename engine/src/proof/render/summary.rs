@@ -21,12 +21,12 @@ pub fn proof_summary(proof: &Proof) -> String {
 /// Returns the method for a sign.
 fn method(node: &Node) -> &'static str {
     let leaves = leaves(node);
-    let is_square = |reason: &Reason| matches!(reason, Reason::Certificate(of) if contains_square(of));
+    let mut last_signs = leaves.iter().filter_map(|leaf| leaf.signs.last());
     if leaves.iter().any(|leaf| !leaf.orders.is_empty()) {
         "order"
     } else if leaves.iter().any(|leaf| !leaf.rises.is_empty()) {
         "sign by slope"
-    } else if leaves.iter().any(|leaf| leaf.signs.last().is_some_and(is_square)) {
+    } else if last_signs.any(|reason| matches!(reason, Reason::Certificate(of) if contains_square(of))) {
         "sign by square"
     } else {
         "sign"

@@ -119,7 +119,7 @@ impl<'a> Knowledge<'a> {
 
     /// Records the signs of the factors of a divisor.
     pub fn collect_factors(&mut self, divisor: usize, state: &State) -> Result<(), Refusal> {
-        match self.problem.table.step(divisor)? {
+        match self.problem.table.op(divisor)? {
             Op::Mul(a, b) => [a, b].into_iter().try_for_each(|factor| self.collect_factors(factor, state)),
             Op::Neg(a) | Op::Div(a, _) | Op::Rounded(a) => self.collect_factors(a, state),
             _ => {
