@@ -64,11 +64,10 @@ fn first_and_limit(sequence: &Sequence) -> Vec<[Tree; 2]> {
 /// Returns the hypotheses of a statement as propositions about its independent symbols.
 pub fn premises(statement: &Statement) -> Vec<Instance> {
     let computed = with_computed(statement, Vec::new());
-    let mut all = Vec::new();
-    for Hypothesis { relation, value, .. } in statement.hypotheses() {
-        all.push(Instance::new("", Proposition::Sign(*relation, value.substitute(&computed))));
-    }
-    all
+    let hypotheses = statement.hypotheses().iter().map(|Hypothesis { relation, value, .. }| {
+        Instance::new("", Proposition::Sign(*relation, value.substitute(&computed)))
+    });
+    hypotheses.collect()
 }
 
 /// Adds the formulas of computed quantities to the values of other symbols.
@@ -206,24 +205,23 @@ pub enum Failure<V = Value> {
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        use Failure::*;
         match self {
-            Failure::Undefined(divisor) if divisor.to_string() == "0" => {
-                f.write_str("undefined: 0 is a divisor")
-            }
-            Failure::Undefined(divisor) => write!(f, "undefined: {divisor} = 0 is a divisor"),
-            Failure::Unequal(left, right) => match [format_short(left), format_short(right)] {
+            Undefined(divisor) if divisor.to_string() == "0" => f.write_str("undefined: 0 is a divisor"),
+            Undefined(divisor) => write!(f, "undefined: {divisor} = 0 is a divisor"),
+            Unequal(left, right) => match [format_short(left), format_short(right)] {
                 // Values that agree in the printed digits are printed in full.
                 [short, same] if short == same => write!(f, "{left} ≠ {right}"),
                 [left, right] => write!(f, "{left} ≠ {right}"),
             },
-            Failure::Sign(relation, value) => write!(f, "{} is not {relation} 0", format_short(value)),
-            Failure::BoundExceeded(of, bound) => {
+            Sign(relation, value) => write!(f, "{} is not {relation} 0", format_short(value)),
+            BoundExceeded(of, bound) => {
                 write!(f, "|{}| is larger than {}", format_short(of), format_short(bound))
             }
-            Failure::NotConverging(Some(distance)) => {
+            NotConverging(Some(distance)) => {
                 write!(f, "its distance from the limit tends to {}", format_short(distance))
             }
-            Failure::NotConverging(None) => f.write_str("its distance from the limit is unbounded"),
+            NotConverging(None) => f.write_str("its distance from the limit is unbounded"),
         }
     }
 }
@@ -344,8 +342,8 @@ impl<'a, D: Domain, S: Fn(&'static str) -> D::Value> Evaluation<'a, D, S> {
 
     /// Returns `true` if there are quantities, and those of each pair are equal.
     fn are_equal(&self, pairs: &[[usize; 2]]) -> bool {
-        let equal = |places| self.compared(places, Quantity::is_equal, Failure::Unequal);
-        !pairs.is_empty() && pairs.iter().all(|pair| matches!(equal(pair), Some(Ok(()))))
+        let mut outcomes = pairs.iter().map(|pair| self.outcome(&Test::Equal(*pair)));
+        !pairs.is_empty() && outcomes.all(|outcome| matches!(outcome, Some(Ok(()))))
     }
 
     /// Returns the divisor because of which a formula is undefined, an innermost one.

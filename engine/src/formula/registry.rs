@@ -387,24 +387,15 @@ impl CallNames<'_> {
         if self.own.is_some_and(|own| own.name() == formula.name()) {
             return None;
         }
-        let (mut all, mut without_implicit) = (Vec::new(), Vec::new());
-        let (mut is_usual, mut is_implicit_usual) = (true, true);
-        for (argument, name) in arguments.into_iter().zip(formula.depends_on()) {
-            let has_usual_name = argument.typeset(Notation::Text, &|tree| self.of(tree)) == name;
-            is_usual &= has_usual_name;
-            if self.registry.implicit.contains(&name) {
-                is_implicit_usual &= has_usual_name;
-            } else {
-                without_implicit.push(argument.clone());
-            }
-            all.push(argument);
-        }
+        let names = arguments.iter().zip(formula.depends_on());
+        let unusual = names.filter(|(of, name)| of.typeset(Notation::Text, &|tree| self.of(tree)) != *name);
+        let unusual: Vec<_> = unusual.map(|(_, name)| name).collect();
         // Either all parameters or none are displayed, so that arguments are identified by their position.
-        let arguments = match is_implicit_usual {
-            _ if is_usual => Vec::new(),
-            true => without_implicit,
-            false => all,
-        };
+        let shows_parameters = unusual.iter().any(|name| self.registry.implicit.contains(name));
+        let displayed = arguments.into_iter().zip(formula.depends_on()).filter(|(_, name)| {
+            !unusual.is_empty() && (shows_parameters || !self.registry.implicit.contains(name))
+        });
+        let arguments = displayed.map(|(argument, _)| argument).collect();
         Some(Name { symbol: formula.symbol.to_string(), arguments })
     }
 }

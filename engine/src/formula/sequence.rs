@@ -45,12 +45,11 @@ impl Sequence {
     }
 
     pub(super) fn map(&self, f: &impl Fn(&Tree) -> Tree) -> Self {
-        let all = |trees: &[Tree]| trees.iter().map(f).collect();
         Sequence {
-            start: all(&self.start),
-            step: all(&self.step),
+            start: self.start.iter().map(f).collect(),
+            step: self.step.iter().map(f).collect(),
             ratio: f(&self.ratio),
-            member: all(&self.member),
+            member: self.member.iter().map(f).collect(),
             limit: self.limit.as_ref().map(f),
             within: self.within.iter().map(|(of, bound)| (f(of), f(bound))).collect(),
         }

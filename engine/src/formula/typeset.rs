@@ -215,8 +215,8 @@ impl Layout<'_> {
             && let Some(Factor::Extremum("min", [a, b])) = term.only()
             && (a[0].negative || b[0].negative)
         {
-            let negated = |sum: &Sum| sum.iter().cloned().map(Term::negated).collect();
-            *term = Term::of(Factor::Extremum("max", [negated(a), negated(b)]), 1);
+            let negated = [a, b].map(|sum| sum.iter().cloned().map(Term::negated).collect());
+            *term = Term::of(Factor::Extremum("max", negated), 1);
         }
         sum
     }
@@ -382,33 +382,29 @@ impl Writer {
         if self.is_latex() {
             return base + &script('^', &power.to_string());
         }
-        let digits = power.to_string();
-        base + &digits
-            .chars()
-            .filter_map(|d| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(d as usize - '0' as usize))
-            .collect::<String>()
+        let digits = power.to_string().into_bytes().into_iter();
+        base + &String::from_iter(digits.filter_map(|d| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(usize::from(d - b'0'))))
     }
 
     fn factor(self, factor: &Factor) -> String {
+        use Factor::*;
         match factor {
-            Factor::Name(symbol, arguments) => {
+            Name(symbol, arguments) => {
                 let symbol = if self.is_latex() { latex(symbol) } else { symbol.clone() };
                 if arguments.is_empty() { symbol } else { symbol + &self.list(arguments) }
             }
-            Factor::Group(sum) => self.brackets("(", ")", &self.sum(sum)),
-            Factor::Exp(sum) if self.is_latex() => format!("\\mathrm{{e}}^{{{}}}", self.small().sum(sum)),
-            Factor::Exp(sum) => format!("exp{}", self.brackets("(", ")", &self.sum(sum))),
-            Factor::PositivePart(sum) if self.is_latex() => {
-                self.brackets("\\langle ", " \\rangle", &self.sum(sum))
-            }
-            Factor::PositivePart(sum) => self.brackets("⟨", "⟩", &self.sum(sum)),
-            Factor::Size(sum) if self.is_latex() => self.brackets("\\lvert ", " \\rvert", &self.sum(sum)),
-            Factor::Size(sum) => self.brackets("|", "|", &self.sum(sum)),
-            Factor::Rounded(name, sum) => {
+            Group(sum) => self.brackets("(", ")", &self.sum(sum)),
+            Exp(sum) if self.is_latex() => format!("\\mathrm{{e}}^{{{}}}", self.small().sum(sum)),
+            Exp(sum) => format!("exp{}", self.brackets("(", ")", &self.sum(sum))),
+            PositivePart(sum) if self.is_latex() => self.brackets("\\langle ", " \\rangle", &self.sum(sum)),
+            PositivePart(sum) => self.brackets("⟨", "⟩", &self.sum(sum)),
+            Size(sum) if self.is_latex() => self.brackets("\\lvert ", " \\rvert", &self.sum(sum)),
+            Size(sum) => self.brackets("|", "|", &self.sum(sum)),
+            Rounded(name, sum) => {
                 let name = if self.is_latex() { format!("\\mathrm{{{name}}}") } else { name.to_string() };
                 name + &self.brackets("(", ")", &self.sum(sum))
             }
-            Factor::Extremum(name, sums) => {
+            Extremum(name, sums) => {
                 format!("{}{name}{}", if self.is_latex() { "\\" } else { "" }, self.list(sums))
             }
         }

@@ -107,11 +107,8 @@ impl<'a> Development<'a> {
             };
             match text {
                 Ok(text) => {
-                    written.push(Written {
-                        section: section.to_string(),
-                        contains_rounding: claim.contains_rounding(),
-                        text,
-                    });
+                    let (section, contains_rounding) = (section.to_string(), claim.contains_rounding());
+                    written.push(Written { section, contains_rounding, text });
                 }
                 Err(reason) => {
                     omitted.push(Omitted { equation: claim.equation(), name: claim.name(), reason })

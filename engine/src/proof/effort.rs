@@ -27,12 +27,7 @@ thread_local! {
 
 /// Returns the value of `f`, or `None` if its arithmetic exceeds [`MAX_EFFORT`].
 pub fn bounded<T>(f: impl FnOnce() -> T) -> Option<T> {
-    bounded_by(MAX_EFFORT, f)
-}
-
-/// Returns the value of `f`, or `None` if its arithmetic exceeds another maximum.
-pub fn bounded_by<T>(most: usize, f: impl FnOnce() -> T) -> Option<T> {
-    let before = REST.replace(Rest::Terms(most));
+    let before = REST.replace(Rest::Terms(MAX_EFFORT));
     let value = f();
     let is_exceeded = matches!(REST.replace(before), Rest::Exceeded);
     (!is_exceeded).then_some(value)
@@ -65,8 +60,8 @@ mod tests {
         assert!(spend_all() == Some(true) && spend_all() == Some(true));
         assert!(bounded(|| (spend(MAX_EFFORT), spend(1))).is_none());
         assert!(bounded(|| (spend(MAX_EFFORT + 1), spend(0))).is_none());
-        assert!(bounded(exceed).is_none() && bounded_by(10 * MAX_EFFORT, exceed).is_none());
-        // Outside, effort is unbounded, also after a bound was exceeded.
+        assert!(bounded(exceed).is_none());
+        // Elsewhere effort is unbounded, also after a bound was exceeded.
         exceed();
         assert!(spend(MAX_EFFORT + 1));
     }

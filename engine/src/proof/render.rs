@@ -110,12 +110,13 @@ impl<'a> ProofPrinter<'a> {
 
     /// Formats a goal.
     fn format_proposition(&self, proposition: &Proposition) -> String {
+        use Proposition::*;
         match proposition {
-            Proposition::Equal(left, right) => format!("{} = {}", self.text(left), self.text(right)),
-            Proposition::Sign(relation, of) => format!("{} {relation} 0", self.text(of)),
-            Proposition::Within(of, bound) => format!("{} ≤ {}", self.text(&of.abs()), self.text(bound)),
-            Proposition::Derivative(of, x, is) => format!("∂/∂{x} [{}] = {}", self.text(of), self.text(is)),
-            Proposition::Limit(of, x, to) => {
+            Equal(left, right) => format!("{} = {}", self.text(left), self.text(right)),
+            Sign(relation, of) => format!("{} {relation} 0", self.text(of)),
+            Within(of, bound) => format!("{} ≤ {}", self.text(&of.abs()), self.text(bound)),
+            Derivative(of, x, is) => format!("∂/∂{x} [{}] = {}", self.text(of), self.text(is)),
+            Limit(of, x, to) => {
                 format!("lim [{}] = {} for {x} → ∞", self.text(of), self.text(to))
             }
         }

@@ -278,19 +278,14 @@ impl Logarithm for Mpfr {
 }
 impl Real for Mpfr {
     fn unit_roundoff(&self) -> Self {
-        match &self.0 {
-            Rounded(x) => Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, 1) >> x.prec())),
-            Small(_) | Constant(_) => Mpfr::zero(),
-        }
+        self.as_float()
+            .map_or_else(Mpfr::zero, |x| Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, 1) >> x.prec())))
     }
     fn min_subnormal() -> Self {
         Mpfr::zero()
     }
     fn is_finite(&self) -> bool {
-        match &self.0 {
-            Small(_) | Constant(_) => true,
-            Rounded(x) => x.is_finite(),
-        }
+        self.as_float().is_none_or(Float::is_finite)
     }
     fn infinity() -> Self {
         Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, Special::Infinity)))
@@ -303,26 +298,18 @@ impl Real for Mpfr {
         self
     }
     fn half_ulp(&self) -> Self {
-        match &self.0 {
-            // x lies between 2^(e−1) and 2^e. Zero and non-finite numbers have no exponent e.
-            Rounded(x) => x.get_exp().map_or_else(
-                || self.magnitude(),
-                |e| {
-                    let half = e - x.prec() as i32 - 1;
-                    Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, Float::i_exp(1, half))))
-                },
-            ),
-            Small(_) | Constant(_) => Mpfr::zero(),
-        }
+        let Rounded(x) = &self.0 else { return Mpfr::zero() };
+        // x lies between 2^(e−1) and 2^e. Zero and non-finite numbers have no exponent e.
+        let Some(e) = x.get_exp() else { return self.magnitude() };
+        let half = Float::i_exp(1, e - x.prec() as i32 - 1);
+        Mpfr(Rounded(Float::with_val(RADIUS_PRECISION, half)))
     }
     fn magnitude(&self) -> Self {
-        let up = |x: Float| Mpfr(Rounded(x));
-        match &self.0 {
-            Small(_) | Constant(_) => {
-                up(Float::with_val_round(RADIUS_PRECISION, &self.0.rational().abs(), Round::Up).0)
-            }
-            Rounded(x) => up(Float::with_val_round(RADIUS_PRECISION, x.abs_ref(), Round::Up).0),
-        }
+        let (size, _) = match self.as_float() {
+            Some(x) => Float::with_val_round(RADIUS_PRECISION, x.abs_ref(), Round::Up),
+            None => Float::with_val_round(RADIUS_PRECISION, &self.0.rational().abs(), Round::Up),
+        };
+        Mpfr(Rounded(size))
     }
     fn inflated(mut self) -> Self {
         if let Rounded(x) = &mut self.0 {
@@ -357,10 +344,7 @@ impl Mpfr {
 
     /// Returns the precision in bits; `None` for a constant.
     pub fn precision(&self) -> Option<u32> {
-        match &self.0 {
-            Small(_) | Constant(_) => None,
-            Rounded(x) => Some(x.prec()),
-        }
+        self.as_float().map(Float::prec)
     }
 
     /// Returns the underlying float of the crate rug; `None` for a constant.
@@ -384,10 +368,7 @@ impl Mpfr {
 
     /// Returns the exact value; `None` if it is infinite or NaN.
     pub fn to_rational(&self) -> Option<Rational> {
-        match &self.0 {
-            Small(_) | Constant(_) => Some(self.0.rational()),
-            Rounded(x) => x.to_rational(),
-        }
+        self.as_float().map_or_else(|| Some(self.0.rational()), Float::to_rational)
     }
 }
 
@@ -424,11 +405,9 @@ impl fmt::Display for Mpfr {
         };
         // rug pads the mantissa with insignificant zeros to the digits of the precision.
         let (mantissa, exponent) = text.split_once('e').map_or((text.as_str(), ""), |(m, e)| (m, e));
-        let mantissa = if mantissa.contains('.') {
-            mantissa.trim_end_matches('0').trim_end_matches('.')
-        } else {
-            mantissa
-        };
+        let is_padded = mantissa.contains('.');
+        let mantissa =
+            if is_padded { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
         let separator = if exponent.is_empty() { "" } else { "e" };
         f.pad_integral(
             !mantissa.starts_with('-'),

@@ -135,8 +135,7 @@ fn refuse_names(
 
 /// Rejects formulas that contain the symbol of a computed quantity.
 fn refuse_computed<'t>(trees: impl Iterator<Item = &'t Tree>, computed: &[Computed]) -> Result<(), Premise> {
-    let mut names = trees.flat_map(Tree::symbols);
-    let found = names.find(|name| is_among(name, computed));
+    let found = trees.flat_map(Tree::symbols).find(|name| is_among(name, computed));
     found.map_or(Ok(()), |name| Err(Premise::HypothesisOnComputed(name)))
 }
 

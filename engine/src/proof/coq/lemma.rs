@@ -50,17 +50,18 @@ pub(super) fn format_hypothesis(hypothesis: &Hypothesis, printer: Printer) -> St
 }
 
 pub(super) fn format_proposition(proposition: &Proposition, printer: Printer) -> String {
+    use Proposition::*;
     match proposition {
-        Proposition::Equal(a, b) => format!("{} = {}", printer.expr(a), printer.expr(b)),
-        Proposition::Sign(relation, a) => printer.expr(a).relation(*relation),
-        Proposition::Within(a, bound) => {
+        Equal(a, b) => format!("{} = {}", printer.expr(a), printer.expr(b)),
+        Sign(relation, a) => printer.expr(a).relation(*relation),
+        Within(a, bound) => {
             format!("Rabs {} <= {}", printer.expr(a).argument(), printer.expr(bound))
         }
-        Proposition::Derivative(a, by, b) => {
+        Derivative(a, by, b) => {
             let (function, derivative) = (function_of(by, a, printer), printer.expr(b).argument());
             format!("is_derive {function}\n    {}\n    {derivative}", ascii(by))
         }
-        Proposition::Limit(a, by, b) => {
+        Limit(a, by, b) => {
             format!("is_lim {} p_infty {}", function_of(by, a, printer), printer.expr(b).argument())
         }
     }

@@ -111,9 +111,7 @@ impl Operator {
     fn between(self, a: &str, b: &str) -> String {
         match self {
             Operator::Min => format!("min({a}, {b})"),
-            Operator::Add | Operator::Sub | Operator::Mul | Operator::Div => {
-                format!("{a} {} {b}", self.sign())
-            }
+            operator => format!("{a} {} {b}", operator.sign()),
         }
     }
 }
@@ -146,29 +144,26 @@ impl Mutation {
 
     /// Applies the mutation to an operation; `None` if it is not applicable.
     fn mutate(self, tree: &Tree) -> Option<Tree> {
+        use Mutation::*;
         match (self, tree.op()) {
-            (Mutation::Opposite(operator), op) => {
+            (Opposite(operator), op) => {
                 let (a, b) = operator.operands(op)?;
                 Some(tree.with_op(operator.opposite()?.op(a.clone(), b.clone())))
             }
-            (Mutation::FirstOperand(operator), op) => operator.operands(op).map(|(a, _)| a.clone()),
-            (Mutation::SecondOperand(operator), op) => operator.operands(op).map(|(_, b)| b.clone()),
-            (Mutation::Swap(operator), op) => {
+            (FirstOperand(operator), op) => operator.operands(op).map(|(a, _)| a.clone()),
+            (SecondOperand(operator), op) => operator.operands(op).map(|(_, b)| b.clone()),
+            (Swap(operator), op) => {
                 let (a, b) = operator.operands(op)?;
                 Some(tree.with_op(operator.op(b.clone(), a.clone())))
             }
-            (Mutation::Maximum, Op::Min(a, b)) => {
+            (Maximum, Op::Min(a, b)) => {
                 let [a, b] = [a, b].map(|operand| tree.with_op(Op::Neg(operand.clone())));
                 Some(tree.with_op(Op::Neg(tree.with_op(Op::Min(a, b)))))
             }
-            (Mutation::NegateExponent, Op::Exp(a)) => {
-                Some(tree.with_op(Op::Exp(tree.with_op(Op::Neg(a.clone())))))
-            }
-            (Mutation::DropSign, Op::Neg(a)) | (Mutation::DropPositivePart, Op::PositivePart(a)) => {
-                Some(a.clone())
-            }
-            (Mutation::Integer(from, to), Op::Int(n)) if *n == from => Some(tree.with_op(Op::Int(to))),
-            (Mutation::Symbol(index, from, to), op) => {
+            (NegateExponent, Op::Exp(a)) => Some(tree.with_op(Op::Exp(tree.with_op(Op::Neg(a.clone()))))),
+            (DropSign, Op::Neg(a)) | (DropPositivePart, Op::PositivePart(a)) => Some(a.clone()),
+            (Integer(from, to), Op::Int(n)) if *n == from => Some(tree.with_op(Op::Int(to))),
+            (Symbol(index, from, to), op) => {
                 let mut indices = 0..;
                 let mut is_applicable = false;
                 let op = op.map(|operand| {
@@ -185,23 +180,22 @@ impl Mutation {
 
 impl fmt::Display for Mutation {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        use Mutation::*;
         match self {
-            Mutation::Opposite(operator) => {
+            Opposite(operator) => {
                 write!(f, "{} → {}", operator.sign(), operator.opposite().map_or("", Operator::sign))
             }
-            Mutation::FirstOperand(operator) => write!(f, "{} → a", operator.between("a", "b")),
-            Mutation::SecondOperand(operator) => write!(f, "{} → b", operator.between("a", "b")),
-            Mutation::Swap(operator) => {
+            FirstOperand(operator) => write!(f, "{} → a", operator.between("a", "b")),
+            SecondOperand(operator) => write!(f, "{} → b", operator.between("a", "b")),
+            Swap(operator) => {
                 write!(f, "{} → {}", operator.between("a", "b"), operator.between("b", "a"))
             }
-            Mutation::Maximum => f.write_str("min → max"),
-            Mutation::DropSign => f.write_str("−a → a"),
-            Mutation::NegateExponent => f.write_str("exp(a) → exp(−a)"),
-            Mutation::DropPositivePart => f.write_str("⟨a⟩ → a"),
-            Mutation::Integer(from, to) => write!(f, "{from} → {to}"),
-            Mutation::Symbol(index, from, to) => {
-                write!(f, "{from} → {to} in operand {}", index + 1)
-            }
+            Maximum => f.write_str("min → max"),
+            DropSign => f.write_str("−a → a"),
+            NegateExponent => f.write_str("exp(a) → exp(−a)"),
+            DropPositivePart => f.write_str("⟨a⟩ → a"),
+            Integer(from, to) => write!(f, "{from} → {to}"),
+            Symbol(index, from, to) => write!(f, "{from} → {to} in operand {}", index + 1),
         }
     }
 }

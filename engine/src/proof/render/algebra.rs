@@ -109,29 +109,30 @@ pub(super) fn justify(
     formula: &dyn Fn(&Tree) -> String,
     factors: &[&'static str],
 ) -> String {
+    use ProofError::*;
     match reason {
-        ProofError::Premise(premise) => premise.to_string(),
-        ProofError::PossibleZeroDivisor(of, value) if value.value.is_zero() => {
+        Premise(premise) => premise.to_string(),
+        PossibleZeroDivisor(of, value) if value.value.is_zero() => {
             format!("the divisor {} is 0", formula(of))
         }
-        ProofError::PossibleZeroDivisor(of, value) => {
+        PossibleZeroDivisor(of, value) => {
             let is_as_written = value.symbols().into_iter().map(Symbol::name).eq(of.symbols());
             let reduced = if is_as_written { String::new() } else { format!(" = {}", value.format(factors)) };
             format!("the divisor {}{reduced} might be 0", formula(of))
         }
-        ProofError::UndecidedBranch(value) => {
+        UndecidedBranch(value) => {
             format!("the sign of {} is undecided", value.format(factors))
         }
-        ProofError::UnknownSign(value) => {
+        UnknownSign(value) => {
             let order = Order { context: &value.context, factors };
             format!("no rule finds the sign of {}{}", value.format(factors), order.obstacles(&value.value))
         }
-        ProofError::WrongSign(value, sign) => format!("{} is {}", value.format(factors), sign_text(*sign)),
-        ProofError::Unequal(value) => format!("the sides differ by {}", value.format(factors)),
-        ProofError::UnknownLimit(value) => format!("no rule finds the limit of {}", value.format(factors)),
-        ProofError::NotDifferentiable => "⟨·⟩ and min are not differentiable at kinks".to_string(),
-        ProofError::TooLarge(most) => format!("its proof exceeds the limit of {most} terms"),
-        ProofError::NotExpressed(reason) => format!("its proof cannot be checked: {reason}"),
+        WrongSign(value, sign) => format!("{} is {}", value.format(factors), sign_text(*sign)),
+        Unequal(value) => format!("the sides differ by {}", value.format(factors)),
+        UnknownLimit(value) => format!("no rule finds the limit of {}", value.format(factors)),
+        NotDifferentiable => "⟨·⟩ and min are not differentiable at kinks".to_string(),
+        TooLarge(most) => format!("its proof exceeds the limit of {most} terms"),
+        NotExpressed(reason) => format!("its proof cannot be checked: {reason}"),
     }
 }
 

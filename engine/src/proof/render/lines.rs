@@ -14,9 +14,8 @@ use crate::formula::statement::Proposition;
 use crate::formula::symbols::subscripted;
 use crate::number::tree::Op;
 use crate::number::{Exponential, PositivePart, Tree};
-use crate::proof::check::Sign;
 use crate::proof::check::{
-    AbsoluteValue, Atom, Leaf, List, Node, Polynomial, Problem, Quotient, Reader, Reason, Rise, State,
+    AbsoluteValue, Atom, Leaf, List, Node, Polynomial, Problem, Quotient, Reader, Reason, Rise, Sign, State,
     parts_of_rise,
 };
 use crate::proof::trace::{Step, reread, trace};

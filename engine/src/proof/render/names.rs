@@ -35,11 +35,8 @@ impl ProofPrinter<'_> {
                     definitions.extend(rounded.map(|of| self.error(symbol.name(), of)));
                 }
                 Symbol::Slack(_) | Symbol::IntervalParameter(_) => {
-                    let definition = self.definition(symbol, &of.context);
-                    definitions.push(
-                        definition
-                            .unwrap_or_else(|| format!("{} ≥ 0 in one case of the proof", symbol.name())),
-                    );
+                    let of_case = format!("{} ≥ 0 in one case of the proof", symbol.name());
+                    definitions.push(self.definition(symbol, &of.context).unwrap_or(of_case));
                 }
             }
         }

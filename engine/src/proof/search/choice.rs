@@ -249,11 +249,13 @@ impl PivotChoice<'_> {
 
     /// Returns the symbol of unknown sign with the shortest coefficient.
     fn free_symbol(&self, variables: &[usize], has_errors: bool) -> Option<Monomial> {
-        let free =
-            variables.iter().filter(|x| self.sign_without_slack(**x).is_none() && !self.known.is_unit(**x));
-        let solvable = free.filter(|x| self.solve_for(&Monomial::of(**x)).is_some());
+        let solved_for = self.hypothesis.map(|hypothesis| Symbol::Own(hypothesis.solved_for));
+        let free = variables.iter().filter(|x| self.context.signs.get(**x).is_none());
+        let solvable =
+            free.filter(|x| !self.known.is_unit(**x) && self.solve_for(&Monomial::of(**x)).is_some());
         let first = solvable.min_by_key(|x| {
-            (has_errors && !self.is_solved_for(**x), self.equation.coefficient(**x, 1).terms().len())
+            let comes_later = has_errors && (solved_for.is_none() || self.context.symbol(**x) != solved_for);
+            (comes_later, self.equation.coefficient(**x, 1).terms().len())
         });
         first.map(|x| Monomial::of(*x))
     }
@@ -266,8 +268,8 @@ impl PivotChoice<'_> {
             .terms()
             .map(|(m, _)| m)
             .filter(|m| m.count() > 1 && !m.powers().any(|(x, _)| self.known.is_unit(x)));
-        let first = products
-            .min_by_key(|m| m.powers().filter(|(x, _)| self.sign_without_slack(*x).is_some()).count());
+        let first =
+            products.min_by_key(|m| m.powers().filter(|(x, _)| self.context.signs.get(*x).is_some()).count());
         first.filter(|m| self.solve_for(m).is_some()).cloned()
     }
 
@@ -277,22 +279,12 @@ impl PivotChoice<'_> {
             let pivot = Monomial::of(*x);
             let by = self.context.reduce(&self.solve_for(&pivot)?);
             let sign = self.context.sign_under(by, &[], self.known)?.sign();
-            sign.implies(self.sign_without_slack(*x)?).then_some(pivot)
+            sign.implies(self.context.signs.get(*x)?).then_some(pivot)
         })
     }
 
     fn solve_for(&self, pivot: &Monomial) -> Option<Ratio> {
         solve_for(pivot, self.equation, self.known)
-    }
-
-    fn sign_without_slack(&self, x: usize) -> Option<Sign> {
-        self.context.signs.get(x)
-    }
-
-    /// Returns `true` if the hypothesis is to be solved for a symbol.
-    fn is_solved_for(&self, x: usize) -> bool {
-        let symbol = self.context.symbol(x);
-        self.hypothesis.is_some_and(|hypothesis| symbol == Some(Symbol::Own(hypothesis.solved_for)))
     }
 }
 

@@ -12,10 +12,9 @@ use crate::formula::Relation;
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::statement::Proposition;
 use crate::number::Tree;
-use crate::proof::check::Sign;
 use crate::proof::check::{
     AbsoluteValue, Atom, Certificate, Leaf, Polynomial, Problem, Question, Quotient, Reason, Refusal, Same,
-    Source, State,
+    Sign, Source, State,
 };
 
 /// A search for what a leaf lists.

@@ -6,10 +6,9 @@ use super::solution::Solution;
 use super::{Script, Subgoal, refused};
 use crate::formula::statement::Proposition;
 use crate::number::{Exponential, Tree};
-use crate::proof::check::Sign;
 use crate::proof::check::{
-    AbsoluteValue, Atom, Certificate, Known, Leaf, Polynomial, Problem, Quotient, Reason, Rise, Same, State,
-    derivative, parts_of_rise,
+    AbsoluteValue, Atom, Certificate, Known, Leaf, Polynomial, Problem, Quotient, Reason, Rise, Same, Sign,
+    State, derivative, parts_of_rise,
 };
 use crate::proof::trace::{Step, reread, trace};
 use std::iter;

@@ -3,8 +3,7 @@
 use super::{End, PLACE, SHOWN_OF_CASE, SHOWN_OF_ROUNDING, sign_text};
 use crate::formula::symbols::subscripted;
 use crate::number::Tree;
-use crate::proof::check::Sign;
-use crate::proof::check::{Atom, Certificate, Known, Polynomial, Quotient, Reason};
+use crate::proof::check::{Atom, Certificate, Known, Polynomial, Quotient, Reason, Sign};
 
 /// The sides of a certificate as formulas, if they are short.
 struct Forms {
