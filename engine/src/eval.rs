@@ -7,19 +7,19 @@
 
 mod computed;
 mod domain;
+mod evaluation;
 mod germ;
 mod sample;
 mod shrink;
-mod statement;
 #[cfg(test)]
 mod tests;
 
 pub use computed::{Computed, Floats};
 pub use domain::{Balls, Domain, Quantity, Rationals, Value};
-pub use sample::{Coordinates, Point, adjust, constructed_points, first_integer_points, integer_points};
-pub use shrink::Counterexample;
-pub(crate) use shrink::{shrink, with_divisor_zero};
-pub use statement::{
+pub use evaluation::{
     Compiled, Evaluation, Failure, Instance, Test, UNFOLDED_MEMBERS, Verdict, check, independent_symbols,
     instances, premises,
 };
+pub use sample::{Coordinates, Point, adjust, constructed_points, first_integer_points, integer_points};
+pub use shrink::Counterexample;
+pub(crate) use shrink::{shrink, with_divisor_zero};

@@ -1,7 +1,7 @@
 //! Floats that round every result, with the exact values of what is not rounded.
 
 use super::domain::{Domain, Quantity, Value};
-use super::statement::Evaluation;
+use super::evaluation::Evaluation;
 use crate::number::tree::{Op, piecewise_ops};
 use crate::number::{Exact, Real, ToExact};
 use num_traits::{One, Zero};

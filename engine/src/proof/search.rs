@@ -1,7 +1,7 @@
 //! The search for proofs.
 //!
 //! The checker's reader of formulas runs with a [search](source) in the place of a proof: whatever it asks for is
-//! found and listed. Signs are found by [six rules](sign), and expressed by the symbols of the statement as
+//! found and listed. Signs are found by [six rules](rules), and expressed by the symbols of the statement as
 //! identities that the [checker](super::check) expands. Nothing here is trusted.
 //!
 //! A hypothesis v > 0 that does not follow from others, and is more than the sign of a symbol, becomes v = s for
@@ -27,7 +27,7 @@ mod form;
 mod knowledge;
 mod monomial;
 mod number;
-pub(in crate::proof) mod sign;
+pub(in crate::proof) mod rules;
 mod source;
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! The assumptions of a search, and signs under them.
 
 use super::algebra::{Monomial, Ratio};
-use super::sign::Certificate;
+use super::rules::Certificate;
 use crate::formula::Hypothesis;
 use crate::proof::check::Sign;
 

@@ -3,7 +3,7 @@
 use super::algebra::{Monomial, Poly, Ratio};
 use super::context::{Context, solve_for};
 use super::error::Symbol;
-use super::sign::{Certificate, SignEnv};
+use super::rules::{Certificate, SignEnv};
 use crate::formula::Hypothesis;
 use crate::proof::check::Sign;
 use oorandom::Rand32;

@@ -4,7 +4,7 @@ use super::algebra::{FIRST_SLACK, Monomial, Poly, Ratio, VARIABLES};
 use super::assumption::{Assumption, AssumptionUse, Multiple, SignedRatio};
 use super::choice::{self, PivotChoice};
 use super::error::Symbol;
-use super::sign::{Certificate, SignEnv};
+use super::rules::{Certificate, SignEnv};
 use crate::formula::Hypothesis;
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::number::Tree;

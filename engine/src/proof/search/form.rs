@@ -6,7 +6,7 @@ use super::assumption::SignedRatio;
 use super::choice;
 use super::dictionary::{integral, opaque};
 use super::finder::{Finder, SearchResult};
-use super::sign::{Certificate, Rule};
+use super::rules::{Certificate, Rule};
 use crate::formula::Relation;
 use crate::proof;
 use crate::proof::check::{Known, Leaf, Node, Polynomial, Rise, Sign};

@@ -5,7 +5,7 @@ use super::assumption::{AssumptionUse, SignedRatio};
 use super::choice;
 use super::context::Context;
 use super::error::Quantity;
-use super::sign::Certificate;
+use super::rules::Certificate;
 use crate::formula::Hypothesis;
 use crate::number::tree::Op;
 use crate::proof::check::{Atom, Problem, Refusal, Sign, State};
