@@ -94,12 +94,12 @@ fn gappa(benchmark: &Benchmark) -> Result<Option<f64>, Box<dyn Error>> {
         Command::new("gappa").stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
     let Ok(mut child) = piped else { return Ok(None) };
     child.stdin.take().ok_or("no input")?.write_all(script(benchmark).as_bytes())?;
-    let said = String::from_utf8(child.wait_with_output()?.stderr)?;
+    let output = String::from_utf8(child.wait_with_output()?.stderr)?;
     // Example of the output: `|m - e| in [0, 15b-46 {2.13163e-13, 2^(-42.0931)}]`.
-    let upper = said.split_once(" in [").and_then(|(_, interval)| interval.split_once(", "));
+    let upper = output.split_once(" in [").and_then(|(_, interval)| interval.split_once(", "));
     let upper = upper.map(|(_, upper)| upper.split_once('{').map_or(upper, |(_, value)| value));
     let number = upper.and_then(|upper| upper.split([',', ']', ' ']).next());
-    Ok(Some(number.and_then(|number| number.parse().ok()).ok_or_else(|| format!("Gappa says {said}"))?))
+    Ok(Some(number.and_then(|number| number.parse().ok()).ok_or_else(|| format!("Gappa says {output}"))?))
 }
 
 /// Returns a script for Gappa with the exact and the rounded formula.

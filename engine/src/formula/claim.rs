@@ -113,14 +113,14 @@ pub struct PerturbedRecursion {
     ratio: Tree,
     start: Tree,
     step: Tree,
-    further: Vec<(Tree, Tree)>,
+    other_bounds: Vec<(Tree, Tree)>,
 }
 
 /// Begins a statement about a recursion and the powers q = ratioᵏ. Without another start and step its members
 /// stay 0.
 pub fn perturbed_recursion(name: &'static str, ratio: impl Into<Tree>) -> PerturbedRecursion {
     let (start, step) = (Tree::from(0), Tree::symbol(MEMBERS[0]));
-    PerturbedRecursion { name, ratio: ratio.into(), start, step, further: Vec::new() }
+    PerturbedRecursion { name, ratio: ratio.into(), start, step, other_bounds: Vec::new() }
 }
 
 impl PerturbedRecursion {
@@ -141,7 +141,7 @@ impl PerturbedRecursion {
 
     /// Claims that a formula of x_k and q is bounded as well.
     pub fn bounding(mut self, of: impl Fn(&Tree) -> Tree, bound: impl Into<Tree>) -> Self {
-        self.further.push((of(&Tree::symbol(MEMBERS[0])), bound.into()));
+        self.other_bounds.push((of(&Tree::symbol(MEMBERS[0])), bound.into()));
         self
     }
 
@@ -151,12 +151,12 @@ impl PerturbedRecursion {
     /// # Panics
     /// Panics if the closed form or its bound depends on a member.
     pub fn near(self, closed: impl Into<Tree>, bound: impl Into<Tree>) -> Statement {
-        let PerturbedRecursion { name, ratio, start, step, further } = self;
+        let PerturbedRecursion { name, ratio, start, step, other_bounds } = self;
         let (closed, bound) = (closed.into(), bound.into());
         let symbols = [&closed, &bound].into_iter().flat_map(Tree::symbols);
-        assert_not_reserved(name, symbols.filter(|own| *own != POWER));
+        assert_not_reserved(name, symbols.filter(|symbol| *symbol != POWER));
         let distance = Tree::symbol(MEMBERS[0]) - &closed;
-        let within = [(distance, bound)].into_iter().chain(further).collect();
+        let within = [(distance, bound)].into_iter().chain(other_bounds).collect();
         let (start, step, member) = (vec![start], vec![step], vec![closed]);
         Statement::of_form(name, Form::Sequence(Sequence { start, step, ratio, member, limit: None, within }))
     }
@@ -177,8 +177,8 @@ pub fn geometric_limit(
 /// # Panics
 /// Panics if a name is reserved for sequences.
 fn assert_not_reserved(name: &str, symbols: impl Iterator<Item = &'static str>) {
-    for own in symbols {
-        assert!(own != POWER && !MEMBERS.contains(&own), "{name}: {own} is a reserved name");
+    for symbol in symbols {
+        assert!(symbol != POWER && !MEMBERS.contains(&symbol), "{name}: {symbol} is a reserved name");
     }
 }
 

@@ -139,13 +139,13 @@ impl Hypothesis {
         self.holds_with(symbol, &piecewise_ops)
     }
 
-    /// Like [`holds`](Self::holds), with operations beyond + − × ÷ as in [`Tree::eval`].
+    /// Like [`holds`](Self::holds), with further operations as in [`Tree::eval`].
     pub fn holds_with<T: Field + PartialOrd>(
         &self,
         symbol: &impl Fn(&'static str) -> T,
-        beyond: &impl Fn(Op<&T>) -> Option<T>,
+        extra_ops: &impl Fn(Op<&T>) -> Option<T>,
     ) -> bool {
-        let value = self.value.eval(symbol, beyond);
+        let value = self.value.eval(symbol, extra_ops);
         value.and_then(|value| value.partial_cmp(&T::zero())).is_some_and(|sign| self.relation.admits(sign))
     }
 

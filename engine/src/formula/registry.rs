@@ -237,12 +237,12 @@ impl Registry {
     pub fn render_placeholder(&self, hole: &str, notation: Notation) -> Option<String> {
         let (path, renamed) = hole.split_once(": ").unwrap_or((hole, ""));
         let (path, in_full) = path.strip_suffix(" in full").map_or((path, false), |path| (path, true));
-        let own = self.formula(path)?;
+        let formula = self.formula(path)?;
         let renamed: Option<Vec<_>> =
             renamed.split(", ").filter(|pair| !pair.is_empty()).map(|pair| pair.split_once('=')).collect();
-        let names = CallNames { in_full, renamed: renamed?, ..self.names(Some(own)) };
-        let known = own.tree.symbols();
-        names.renamed.iter().all(|(name, _)| known.contains(name)).then(|| names.typeset(own, notation))
+        let names = CallNames { in_full, renamed: renamed?, ..self.names(Some(formula)) };
+        let known = formula.tree.symbols();
+        names.renamed.iter().all(|(name, _)| known.contains(name)).then(|| names.typeset(formula, notation))
     }
 
     /// Returns the abbreviation of a subformula that is a call, with its arguments if they differ from the
@@ -276,8 +276,8 @@ impl Registry {
         hypotheses.iter().map(|hypothesis| self.format_hypothesis(hypothesis)).collect()
     }
 
-    fn names<'a>(&'a self, own: Option<&'a Formula>) -> CallNames<'a> {
-        CallNames { registry: self, own, in_full: false, renamed: Vec::new() }
+    fn names<'a>(&'a self, root: Option<&'a Formula>) -> CallNames<'a> {
+        CallNames { registry: self, root, in_full: false, renamed: Vec::new() }
     }
 
     /// Returns the call of the function that computed this formula, if its last operation belongs to one.
@@ -363,7 +363,7 @@ fn is_reserved(symbol: &str) -> bool {
 struct CallNames<'a> {
     registry: &'a Registry,
     /// The formula itself, which is never abbreviated.
-    own: Option<&'a Formula>,
+    root: Option<&'a Formula>,
     in_full: bool,
     renamed: Vec<(&'a str, &'a str)>,
 }
@@ -379,12 +379,12 @@ impl CallNames<'_> {
 
     fn of(&self, tree: &Tree) -> Option<Name> {
         if let Op::Symbol(name) = tree.op() {
-            let (_, other) = self.renamed.iter().find(|(own, _)| own == name)?;
+            let (_, other) = self.renamed.iter().find(|(symbol, _)| symbol == name)?;
             return Some(Name { symbol: other.to_string(), arguments: Vec::new() });
         }
         let call = self.registry.call(tree).filter(|call| call.formula.abbreviated && !self.in_full);
         let Call { formula, arguments } = call?;
-        if self.own.is_some_and(|own| own.name() == formula.name()) {
+        if self.root.is_some_and(|root| root.name() == formula.name()) {
             return None;
         }
         let names = arguments.iter().zip(formula.depends_on());
@@ -412,13 +412,13 @@ fn matches<'t>(
     {
         return *found.entry(name).or_insert(tree) == tree;
     }
-    let (own, other) = (pattern.op(), tree.op());
-    let same = match (own, other) {
+    let same = match (pattern.op(), tree.op()) {
         (Op::Symbol(a), Op::Symbol(b)) => a == b,
         (Op::Int(a), Op::Int(b)) => a == b,
-        _ => std::mem::discriminant(own) == std::mem::discriminant(other),
+        (a, b) => std::mem::discriminant(a) == std::mem::discriminant(b),
     };
-    same && own.operands().zip(other.operands()).all(|(a, b)| matches(a, b, arguments, found))
+    let mut operands = pattern.op().operands().zip(tree.op().operands());
+    same && operands.all(|(a, b)| matches(a, b, arguments, found))
 }
 
 #[cfg(test)]

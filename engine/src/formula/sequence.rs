@@ -64,8 +64,8 @@ impl Sequence {
 
     /// Returns the invariant of a perturbed recursion: the distance of a member from its formula.
     pub(super) fn invariant(&self) -> Option<Hypothesis> {
-        let ((_, bound), near) = (self.within.first()?, self.member.first()?);
-        Some(Hypothesis::near(&Tree::symbol(MEMBERS[0]), near, bound))
+        let ((_, bound), closed) = (self.within.first()?, self.member.first()?);
+        Some(Hypothesis::near(&Tree::symbol(MEMBERS[0]), closed, bound))
     }
 
     /// Returns the goals of the induction over k.

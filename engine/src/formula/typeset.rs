@@ -128,8 +128,8 @@ impl Product {
     }
 
     fn push(&mut self, factor: Factor, power: u32) {
-        match self.factors.iter_mut().find(|(own, _)| *own == factor) {
-            Some((_, own)) => *own += power,
+        match self.factors.iter_mut().find(|(known, _)| *known == factor) {
+            Some((_, sum)) => *sum += power,
             None => self.factors.push((factor, power)),
         }
     }
@@ -277,7 +277,7 @@ impl Layout<'_> {
             Op::PositivePart(a) => Term::of(Factor::PositivePart(self.sum(a)), 1),
             Op::Min(a, b) => Term::of(Factor::Extremum("min", [self.sum(a), self.sum(b)]), 1),
             Op::Rounded(of) => {
-                let (name, of) = rounding::brackets(of);
+                let (name, of) = rounding::notation(of);
                 Term::of(Factor::Rounded(name, self.sum(&of)), 1)
             }
         }
@@ -321,10 +321,9 @@ impl Writer {
             return self.product(over);
         }
         if self.inline {
-            let brackets = under.pieces() > 1;
-            let under = self.product(under);
-            let under = if brackets { self.brackets("(", ")", &under) } else { under };
-            return format!("{} / {under}", self.product(over));
+            let divisor = self.product(under);
+            let divisor = if under.pieces() > 1 { self.brackets("(", ")", &divisor) } else { divisor };
+            return format!("{} / {divisor}", self.product(over));
         }
         if under.factors.is_empty() {
             let number = format!("\\tfrac{{{}}}{{{}}}", over.number, under.number);
@@ -364,14 +363,14 @@ impl Writer {
     fn base(self, factor: &Factor) -> String {
         let base = self.factor(factor);
         // A base with an exponent of its own needs brackets.
-        let raised = match factor {
+        let needs_brackets = match factor {
             Factor::Name(symbol, _) => {
                 symbol.contains('^') || symbol.chars().any(|c| superscript(c).is_some())
             }
             Factor::Exp(_) => self.is_latex(),
             _ => false,
         };
-        if raised { self.brackets("(", ")", &base) } else { base }
+        if needs_brackets { self.brackets("(", ")", &base) } else { base }
     }
 
     fn power(self, factor: &Factor, power: u32) -> String {

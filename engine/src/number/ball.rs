@@ -233,12 +233,12 @@ operators! { #[inline] [T: Real] Ball<T>;
         }
         let value = &a.value / &b.value;
         // a/b − a'/b' = ((a − a') − (a/b)(b − b')) / b'
-        let own = product_error(&value);
-        let from_b = times(&b.radius, || value.magnitude() + &own);
+        let rounding = product_error(&value);
+        let from_b = times(&b.radius, || value.magnitude() + &rounding);
         // A small divisor magnifies an underflow there.
         let lost = if b.radius.is_zero() { T::zero() } else { T::min_subnormal() };
         // The divisor may have more digits than a radius. Rounding it up counts as two of the ten operations.
-        let error = (from_b + (lost + &a.radius)) / least.magnitude() + own;
+        let error = (from_b + (lost + &a.radius)) / least.magnitude() + rounding;
         let zero = value.is_zero() && a.is_exactly_zero();
         Ball::from_parts(value, error, [&a.radius, &b.radius], zero)
     };
@@ -299,9 +299,9 @@ impl<T: Real + Exponential> Exponential for Ball<T> {
         if r.partial_cmp(&T::one()).is_none_or(Ordering::is_gt) {
             return Ball::unbounded(value, r.clone());
         }
-        let own = product_error(&value);
+        let rounding = product_error(&value);
         // |eʳ − 1| ≤ r + r² for r ≤ 1.
-        let growth = times(&(r * r + r), || value.magnitude() + &own);
-        Ball::from_parts(value, growth + own, [r, r], false)
+        let growth = times(&(r * r + r), || value.magnitude() + &rounding);
+        Ball::from_parts(value, growth + rounding, [r, r], false)
     }
 }

@@ -215,7 +215,9 @@ impl Tree {
     /// Substitutes formulas for quantities.
     pub fn substitute(&self, replaced: &[(&str, Tree)]) -> Tree {
         self.rewrite(&|tree| match tree.op() {
-            Op::Symbol(name) => replaced.iter().find(|(own, _)| own == name).map(|(_, tree)| tree.clone()),
+            Op::Symbol(name) => {
+                replaced.iter().find(|(symbol, _)| symbol == name).map(|(_, tree)| tree.clone())
+            }
             _ => None,
         })
     }

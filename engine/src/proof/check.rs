@@ -459,7 +459,7 @@ impl<S: Source> Reader<'_, S> {
         };
         for ((proposition, assumed), node) in parts_of_rise(problem, rise, x)?.iter().zip(&rise.parts) {
             let others = problem.hypotheses.iter().copied();
-            let others = others.filter(|given| !given.value.symbols().contains(x)).chain(assumed);
+            let others = others.filter(|h| !h.value.symbols().contains(x)).chain(assumed);
             let part = Problem::new(proposition, others.collect())?.within(problem)?;
             check_node(&part, &mut Vec::new(), node)?;
         }

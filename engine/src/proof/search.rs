@@ -255,9 +255,9 @@ impl<'a> Attempt<'a> {
         }
         let (known, state) = (&search.known, check::State::new(self.problem));
         let deciding = known.context.sign_numerator(value);
-        let own = known.own(&deciding.clone().into());
-        let (on, _) = integral(own.num(), own.num());
-        let scale = own.checked_div(&on.clone().into()).ok_or("a case of nothing")?;
+        let original = known.original(&deciding.clone().into());
+        let (on, _) = integral(original.num(), original.num());
+        let scale = original.checked_div(&on.clone().into()).ok_or("a case of nothing")?;
         let on = known.polynomial(&on, &state).ok_or("the quantity of a case")?;
         let mut nodes = Vec::with_capacity(2);
         for sign in [Sign::Positive, Sign::NonPositive] {

@@ -22,12 +22,12 @@ const LETTERS: &[(char, &str)] = &[
 const DOT: char = '\u{307}';
 
 fn subscript(c: char) -> Option<char> {
-    "₀₁₂₃₄₅₆₇₈₉".chars().position(|own| own == c).and_then(|i| char::from_digit(i as u32, 10))
+    "₀₁₂₃₄₅₆₇₈₉".chars().position(|subscript| subscript == c).and_then(|i| char::from_digit(i as u32, 10))
 }
 
 pub(super) fn superscript(c: char) -> Option<char> {
-    let (own, plain) = ("⁰¹²³⁴⁵⁶⁷⁸⁹⁺ᵃᵇᶠᵏᵖ", "0123456789+abfkp");
-    own.chars().position(|own| own == c).and_then(|i| plain.chars().nth(i))
+    let (superscripts, plain) = ("⁰¹²³⁴⁵⁶⁷⁸⁹⁺ᵃᵇᶠᵏᵖ", "0123456789+abfkp");
+    superscripts.chars().position(|superscript| superscript == c).and_then(|i| plain.chars().nth(i))
 }
 
 /// Returns a subscript or an exponent, in braces if it has more than one character.

@@ -11,15 +11,15 @@ use crate::formula::symbols::SCALES;
 use crate::number::Tree;
 use crate::number::tree::Op::{self, *};
 
-/// Returns the name and the content of the brackets for a rounded formula.
-pub(super) fn brackets(of: &Tree) -> (&'static str, Tree) {
+/// Returns the name, `fl` or `nearest`, and the argument that denote the rounding of a formula.
+pub(super) fn notation(of: &Tree) -> (&'static str, Tree) {
     if rounds_each_op(of) { ("fl", without_implied_roundings(of)) } else { ("nearest", of.clone()) }
 }
 
 /// Returns the name of the brackets, `fl` or `nearest`, in which the content of a rounding is written
 /// unchanged.
 pub(crate) fn name_of_rounding(of: &Tree) -> &'static str {
-    brackets(of).0
+    notation(of).0
 }
 
 fn is_operation(tree: &Tree) -> bool {

@@ -40,14 +40,14 @@ pub trait ExactText: ToExact + Clone {
     /// Panics if the rounding is neither up nor down.
     fn bound(&self, round: Round) -> String {
         let Ok(end) = self.to_exact() else { return self.text() };
-        let mut near = self.clone();
+        let mut candidate = self.clone();
         loop {
-            let text = near.text();
+            let text = candidate.text();
             if is_bound(&text, &end, round) {
                 return text;
             }
-            let [below, above] = near.neighbours();
-            near = if round == Round::Up { above } else { below };
+            let [below, above] = candidate.neighbours();
+            candidate = if round == Round::Up { above } else { below };
         }
     }
 }

@@ -30,7 +30,7 @@ impl<'p, S: Source> Reader<'p, S> {
         if cases.iter().any(|(case, _)| !case.has_only(|y| !problem.depends(y, by))) {
             return Err(Refusal::Limit);
         }
-        for hypothesis in problem.hypotheses.iter().filter(|given| given.value.symbols().contains(by)) {
+        for hypothesis in problem.hypotheses.iter().filter(|h| h.value.symbols().contains(by)) {
             self.holds_later(hypothesis, x, &early)?;
         }
         let found = self.limit_of(&of, x)?;
@@ -61,11 +61,11 @@ impl<'p, S: Source> Reader<'p, S> {
     }
 
     /// Checks that a hypothesis holds for all sufficiently large values of the variable.
-    fn holds_later(&mut self, given: &Hypothesis, x: usize, early: &State<'p>) -> Checked<()> {
-        if given.interval().is_some() || given.relation == Relation::Zero {
+    fn holds_later(&mut self, hypothesis: &Hypothesis, x: usize, early: &State<'p>) -> Checked<()> {
+        if hypothesis.interval().is_some() || hypothesis.relation == Relation::Zero {
             return Err(Refusal::Limit);
         }
-        let value = self.translate(&given.value)?;
+        let value = self.translate(&hypothesis.value)?;
         let (_, coefficients) = self.leading(&value, x)?;
         // The signs are found in the earlier state, and are not added to the later one.
         let later = mem::replace(&mut self.state, early.clone());

@@ -87,12 +87,12 @@ impl Polynomial {
         }
         let (mut sums, mut rest) = (Vec::with_capacity(count), &self.0[..]);
         for (powers, number) in &other.0 {
-            let before = rest.iter().take_while(|(own, _)| own < powers).count();
+            let before = rest.iter().take_while(|(first, _)| first < powers).count();
             sums.extend_from_slice(&rest[..before]);
             rest = &rest[before..];
             let mut sum = number.checked_mul(n).ok_or(Refusal::TooLarge)?;
-            if let [(own, number), others @ ..] = rest
-                && own == powers
+            if let [(first, number), others @ ..] = rest
+                && first == powers
             {
                 sum = sum.checked_add(*number).ok_or(Refusal::TooLarge)?;
                 rest = others;

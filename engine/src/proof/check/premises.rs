@@ -93,11 +93,13 @@ fn check_names(statement: &Statement) -> Result<(), Premise> {
         is_name_of_proof(name) || (MEMBERS.contains(&name) && !is_allowed)
     };
     refuse(statement.trees(), is_reserved)?;
-    refuse_names(statement.goals().iter().filter_map(|goal| goal.proposition.variable()), is_reserved)?;
+    let mut variables = statement.goals().iter().filter_map(|goal| goal.proposition.variable());
+    variables.find(|name| is_reserved(name)).map_or(Ok(()), |name| Err(Premise::ReservedName(name)))?;
 
     let computed = statement.computed();
-    let predefined = [POWER, PRECISION].into_iter().chain(MEMBERS).chain(SCALES);
-    refuse_names(predefined, |name| is_among(name, computed))?;
+    let mut predefined = [POWER, PRECISION].into_iter().chain(MEMBERS).chain(SCALES);
+    let found = predefined.find(|name| is_among(name, computed));
+    found.map_or(Ok(()), |name| Err(Premise::ReservedName(name)))?;
 
     let hypotheses = statement.hypotheses().iter().map(|hypothesis| &hypothesis.value);
     if let Some(Sequence { start, step, ratio, limit, member, within }) = statement.conclusion() {
@@ -123,14 +125,8 @@ fn refuse<'t>(
     trees: impl Iterator<Item = &'t Tree>,
     is_refused: impl Fn(&'static str) -> bool,
 ) -> Result<(), Premise> {
-    refuse_names(trees.flat_map(Tree::symbols), is_refused)
-}
-
-fn refuse_names(
-    mut names: impl Iterator<Item = &'static str>,
-    is_refused: impl Fn(&'static str) -> bool,
-) -> Result<(), Premise> {
-    names.find(|name| is_refused(name)).map_or(Ok(()), |name| Err(Premise::ReservedName(name)))
+    let found = trees.flat_map(Tree::symbols).find(|name| is_refused(name));
+    found.map_or(Ok(()), |name| Err(Premise::ReservedName(name)))
 }
 
 /// Rejects formulas that contain the symbol of a computed quantity.

@@ -111,7 +111,7 @@ impl<'p> State<'p> {
 
     /// Returns the exponent of an exponential that was met.
     pub fn exponent(&self, x: usize) -> Option<&Quotient> {
-        self.exponents.iter().find(|(own, _)| *own == x).map(|(_, exponent)| exponent)
+        self.exponents.iter().find(|(y, _)| *y == x).map(|(_, exponent)| exponent)
     }
 }
 

@@ -112,7 +112,7 @@ impl Table {
 
     /// Returns the variable of an atom.
     pub fn variable(&self, atom: Atom) -> Checked<usize> {
-        self.atoms.iter().position(|own| *own == atom).ok_or(Refusal::Unknown)
+        self.atoms.iter().position(|known| *known == atom).ok_or(Refusal::Unknown)
     }
 
     /// Returns `true` if a variable is between −1 and 1.
@@ -187,7 +187,7 @@ impl<'a> Problem<'a> {
             _ => None,
         };
         let mut table = Table::default();
-        let values = hypotheses.iter().map(|given| table.add(&given.value)).collect::<Checked<_>>()?;
+        let values = hypotheses.iter().map(|h| table.add(&h.value)).collect::<Checked<_>>()?;
         let goal = proposition.trees().into_iter().chain(&derivative);
         let goal = goal.map(|tree| table.add(tree)).collect::<Checked<_>>()?;
         table.add_atoms(&hypotheses)?;

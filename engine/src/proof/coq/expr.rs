@@ -95,7 +95,7 @@ impl Expr {
     pub(super) fn substitute(&self, name: &str, by: &Expr) -> Self {
         let with = |a: &Expr| Box::new(a.substitute(name, by));
         match self {
-            Expr::Name(own) if own == name => by.clone(),
+            Expr::Name(known) if known == name => by.clone(),
             Expr::Name(_) | Expr::Number(_) => self.clone(),
             Expr::Neg(a) => Expr::Neg(with(a)),
             Expr::Binary(operator, a, b) => Expr::Binary(*operator, with(a), with(b)),

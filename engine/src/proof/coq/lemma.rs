@@ -51,24 +51,17 @@ pub(super) fn format_hypothesis(hypothesis: &Hypothesis, printer: Printer) -> St
 
 pub(super) fn format_proposition(proposition: &Proposition, printer: Printer) -> String {
     use Proposition::*;
+    let of = |tree: &Tree| printer.expr(tree);
+    let function = |var: &str, tree: &Tree| format!("(fun {} => {})", ascii(var), of(tree));
     match proposition {
-        Equal(a, b) => format!("{} = {}", printer.expr(a), printer.expr(b)),
-        Sign(relation, a) => printer.expr(a).relation(*relation),
-        Within(a, bound) => {
-            format!("Rabs {} <= {}", printer.expr(a).argument(), printer.expr(bound))
-        }
+        Equal(a, b) => format!("{} = {}", of(a), of(b)),
+        Sign(relation, a) => of(a).relation(*relation),
+        Within(a, bound) => format!("Rabs {} <= {}", of(a).argument(), of(bound)),
         Derivative(a, by, b) => {
-            let (function, derivative) = (function_of(by, a, printer), printer.expr(b).argument());
-            format!("is_derive {function}\n    {}\n    {derivative}", ascii(by))
+            format!("is_derive {}\n    {}\n    {}", function(by, a), ascii(by), of(b).argument())
         }
-        Limit(a, by, b) => {
-            format!("is_lim {} p_infty {}", function_of(by, a, printer), printer.expr(b).argument())
-        }
+        Limit(a, by, b) => format!("is_lim {} p_infty {}", function(by, a), of(b).argument()),
     }
-}
-
-fn function_of(variable: &str, tree: &Tree, printer: Printer) -> String {
-    format!("(fun {} => {})", ascii(variable), printer.expr(tree))
 }
 
 /// Returns the divisors in formulas, except numbers, each after its own divisors.
@@ -120,7 +113,7 @@ impl<'a> Lemma<'a> {
 
     /// Returns its hypotheses, except the minimum precision, which has another form in Coq.
     pub(super) fn hypotheses(&self) -> impl Iterator<Item = &'a Hypothesis> {
-        self.hypotheses.iter().copied().filter(|given| !self.is_minimum_precision(given))
+        self.hypotheses.iter().copied().filter(|h| !self.is_minimum_precision(h))
     }
 
     /// Returns all its hypotheses.
@@ -133,13 +126,13 @@ impl<'a> Lemma<'a> {
         if self.is_minimum_precision(hypothesis) {
             return Some("M".into());
         }
-        self.hypotheses().position(|own| own == hypothesis).map(|i| format!("H{}", i + 1))
+        self.hypotheses().position(|h| h == hypothesis).map(|i| format!("H{}", i + 1))
     }
 
     /// Removes a variable and the hypotheses on it.
     pub(super) fn without(mut self, variable: &str) -> Self {
-        self.hypotheses.retain(|given| !given.value.symbols().contains(variable));
-        self.variables.retain(|own| *own != variable);
+        self.hypotheses.retain(|h| !h.value.symbols().contains(variable));
+        self.variables.retain(|name| *name != variable);
         self
     }
 
@@ -195,7 +188,7 @@ impl<'a> Lemma<'a> {
             lines.push("(2 <= prec)%Z ->".into());
             powers.push(format!("{} = bpow radix2 prec ->", ascii(PRECISION)));
             powers.extend(
-                self.scales().map(|own| format!("{} = bpow radix2 {} ->", ascii(own), exponent(own))),
+                self.scales().map(|scale| format!("{} = bpow radix2 {} ->", ascii(scale), exponent(scale))),
             );
             start = "\n  ";
         }
@@ -203,7 +196,7 @@ impl<'a> Lemma<'a> {
             lines.push(format!("forall{} : R,", names(&self.variables)));
         }
         lines.extend(powers);
-        lines.extend(self.hypotheses().map(|given| format!("{} ->", format_hypothesis(given, self.printer))));
+        lines.extend(self.hypotheses().map(|h| format!("{} ->", format_hypothesis(h, self.printer))));
         lines.push(conclusion.to_string());
         let (name, statement, proof) = (&self.name, lines.join("\n  "), proof.into_text());
         format!("\n{keyword} {name} :{start}{statement}.\nProof.\n{proof}Qed.\n")

@@ -59,7 +59,7 @@ impl<'p> Subgoal<'p> {
         let printed: Vec<_> = printed.collect();
         let proposition = proposition.map(&simplified);
         let problem = Problem::new(&proposition, printed.iter().collect()).map_err(refused)?;
-        write(Subgoal::new(lemma, &problem, hypotheses.iter().map(|given| lemma.label(given)).collect()))
+        write(Subgoal::new(lemma, &problem, hypotheses.iter().map(|h| lemma.label(h)).collect()))
     }
 
     /// Returns the certificates for the problem.

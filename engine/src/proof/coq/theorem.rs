@@ -43,7 +43,9 @@ impl<'a> Claim<'a> {
                 _ if rates.is_empty() => self.with_proof("Theorem", &self.lemma(goal), goal)?,
                 _ => return Err("several goals".into()),
             },
-            (None, own, [near @ .., goal]) if near.len() == own.len() => self.computed(near, goal)?,
+            (None, computed, [intervals @ .., goal]) if intervals.len() == computed.len() => {
+                self.computed(intervals, goal)?
+            }
             _ => return Err("a computed quantity among several goals".into()),
         };
         Ok(self.defined()? + &text)
@@ -80,7 +82,7 @@ impl<'a> Claim<'a> {
     fn mentions_member(&self, tree: &Tree) -> bool {
         let computed = self.statement.computed();
         let symbols = tree.symbols();
-        symbols.iter().any(|name| *name == MEMBERS[0] || computed.iter().any(|own| own.symbol == *name))
+        symbols.iter().any(|name| *name == MEMBERS[0] || computed.iter().any(|c| c.symbol == *name))
     }
 
     /// Returns a goal with its proof.
@@ -110,7 +112,7 @@ impl<'a> Claim<'a> {
         script.line("repeat apply conj.");
         for divisor in &divisors {
             let is_one = Proposition::Equal(divisor * (Tree::from(1) / divisor), Tree::from(1));
-            script.block("-", |own| own.goal(&lemma, &is_one))?;
+            script.block("-", |script| script.goal(&lemma, &is_one))?;
         }
         Ok(lemma.text("Lemma", &none_is_zero(&divisors, self.printer), script))
     }
@@ -127,7 +129,7 @@ impl<'a> Claim<'a> {
         };
         let [of, bound] = [of, bound].map(|tree| {
             let last_first = self.statement.computed().iter().rev();
-            last_first.fold(tree.clone(), |tree, own| tree.substitute(&[(own.symbol, own.formula.clone())]))
+            last_first.fold(tree.clone(), |tree, c| tree.substitute(&[(c.symbol, c.formula.clone())]))
         });
         let theorem = self.new_lemma("", self.statement.hypotheses_for(Role::InvariantBase), [&of, &bound]);
         let computing = self.computing(lemmas.iter(), |hypothesis| theorem.label(hypothesis));

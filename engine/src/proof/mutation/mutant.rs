@@ -64,8 +64,7 @@ impl Operator {
             Op::Mul(a, b) => Some((Operator::Mul, a, b)),
             Op::Div(a, b) => Some((Operator::Div, a, b)),
             Op::Min(a, b) => Some((Operator::Min, a, b)),
-            Op::Symbol(_) | Op::Int(_) | Op::Neg(_) => None,
-            Op::Exp(_) | Op::PositivePart(_) | Op::Rounded(_) => None,
+            _ => None,
         }
     }
 

@@ -110,6 +110,7 @@ pub(super) fn justify(
     factors: &[&'static str],
 ) -> String {
     use ProofError::*;
+    let ratio = |of: &Quantity| Order { context: &of.context, factors }.ratio_or_size(&of.value);
     match reason {
         Premise(premise) => premise.to_string(),
         PossibleZeroDivisor(of, value) if value.value.is_zero() => {
@@ -117,29 +118,22 @@ pub(super) fn justify(
         }
         PossibleZeroDivisor(of, value) => {
             let is_as_written = value.symbols().into_iter().map(Symbol::name).eq(of.symbols());
-            let reduced = if is_as_written { String::new() } else { format!(" = {}", value.format(factors)) };
+            let reduced = if is_as_written { String::new() } else { format!(" = {}", ratio(value)) };
             format!("the divisor {}{reduced} might be 0", formula(of))
         }
         UndecidedBranch(value) => {
-            format!("the sign of {} is undecided", value.format(factors))
+            format!("the sign of {} is undecided", ratio(value))
         }
         UnknownSign(value) => {
             let order = Order { context: &value.context, factors };
-            format!("no rule finds the sign of {}{}", value.format(factors), order.obstacles(&value.value))
+            format!("no rule finds the sign of {}{}", ratio(value), order.obstacles(&value.value))
         }
-        WrongSign(value, sign) => format!("{} is {}", value.format(factors), sign_text(*sign)),
-        Unequal(value) => format!("the sides differ by {}", value.format(factors)),
-        UnknownLimit(value) => format!("no rule finds the limit of {}", value.format(factors)),
+        WrongSign(value, sign) => format!("{} is {}", ratio(value), sign_text(*sign)),
+        Unequal(value) => format!("the sides differ by {}", ratio(value)),
+        UnknownLimit(value) => format!("no rule finds the limit of {}", ratio(value)),
         NotDifferentiable => "⟨·⟩ and min are not differentiable at kinks".to_string(),
         TooLarge(most) => format!("its proof exceeds the limit of {most} terms"),
         NotExpressed(reason) => format!("its proof cannot be checked: {reason}"),
-    }
-}
-
-impl Quantity {
-    /// Formats the value with this order of factors.
-    fn format(&self, factors: &[&'static str]) -> String {
-        Order { context: &self.context, factors }.ratio_or_size(&self.value)
     }
 }
 

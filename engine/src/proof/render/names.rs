@@ -155,8 +155,8 @@ mod tests {
             "the sides differ by (a b e₁ + a c e₁) / (s₁ + 5), \
              where nearest(a (b + c)) = (a (b + c)) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1 and s₁ = 2ᵖ − 4 ≥ 0"
         );
-        let said = reason(&equal("", (&a + &b).round(), &a + &b));
-        assert!(said.contains("fl(a + b) = (a + b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1"), "{said}");
+        let message = reason(&equal("", (&a + &b).round(), &a + &b));
+        assert!(message.contains("fl(a + b) = (a + b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1"), "{message}");
         let opposite =
             positive("", &a + &b - &u).assuming(&[a.clone(), b.clone(), u.clone()].map(above_zero));
         assert_eq!(reason(&opposite), "no rule finds the sign of a + b − u: the term −u is < 0");
@@ -206,23 +206,23 @@ mod tests {
     fn a_divided_hypothesis_and_one_on_the_variable_of_a_limit_are_defined() {
         let [k, f, g] = ["k", "f", "g"].map(|name| Tree::symbol(name));
         let bounds = [above_zero(k.clone()), above_zero(Tree::from(1) - &k)];
-        let said = reason(&positive("", Tree::from(2) * &k - Tree::from(1)).assuming(bounds.each_ref()));
-        assert!(said.contains("s₁ = (1 − k) / k > 0"), "{said}");
+        let message = reason(&positive("", Tree::from(2) * &k - Tree::from(1)).assuming(bounds.each_ref()));
+        assert!(message.contains("s₁ = (1 − k) / k > 0"), "{message}");
         let of = &g * &g / (&g - &f);
-        let said =
+        let message =
             reason(&limit("", of.clone(), &g, &f, Rate::Equal(of - &f)).assuming([&above_zero(&g - &f)]));
-        assert!(said.contains("s₁ = g − f > 0"), "{said}");
+        assert!(message.contains("s₁ = g − f > 0"), "{message}");
         // What is known of other symbols comes first.
         let [h, of] = [Tree::symbol("h"), (&g - Tree::symbol("h")) * &k + &g];
         let bounds = [&g - &f, &g - &h, &k - &f].map(above_zero);
-        let said = reason(&limit("", of.clone(), &g, &f, Rate::Equal(of - &f)).assuming(&bounds));
-        assert!(said.ends_with("where s₁ = k − f > 0 and s₂ = g − f > 0 and s₃ = g − h > 0"), "{said}");
+        let message = reason(&limit("", of.clone(), &g, &f, Rate::Equal(of - &f)).assuming(&bounds));
+        assert!(message.ends_with("where s₁ = k − f > 0 and s₂ = g − f > 0 and s₃ = g − h > 0"), "{message}");
     }
 
     #[test]
     fn a_name_introduced_by_a_case_is_described_as_such() {
         let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
-        let said = reason(&positive("", (&a - &b).positive_part() + &b));
-        assert!(said.ends_with("where s₁ ≥ 0 in one case of the proof"), "{said}");
+        let message = reason(&positive("", (&a - &b).positive_part() + &b));
+        assert!(message.ends_with("where s₁ ≥ 0 in one case of the proof"), "{message}");
     }
 }

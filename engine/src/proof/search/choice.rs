@@ -219,7 +219,7 @@ fn unit_factor(of: &Poly, known: &SignEnv, symbols: u32) -> Option<Certificate> 
     Some(Certificate::product(of, factor.clone(), bounded(&of.checked_div(factor.of())?, known, symbols)?))
 }
 
-/// The choice of the monomial for which to solve `equation`: that `value` equals its slack variable, or 0.
+/// The choice of the monomial for which to solve the equation that `value` is its slack variable, or 0.
 pub struct PivotChoice<'a> {
     pub context: &'a Context,
     pub hypothesis: Option<&'a Hypothesis>,
@@ -262,12 +262,8 @@ impl PivotChoice<'_> {
 
     /// Returns the product with the fewest symbols of known sign.
     fn product(&self) -> Option<Monomial> {
-        let products = self
-            .value
-            .num()
-            .terms()
-            .map(|(m, _)| m)
-            .filter(|m| m.count() > 1 && !m.powers().any(|(x, _)| self.known.is_unit(x)));
+        let monomials = self.value.num().terms().map(|(m, _)| m);
+        let products = monomials.filter(|m| m.count() > 1 && !m.powers().any(|(x, _)| self.known.is_unit(x)));
         let first =
             products.min_by_key(|m| m.powers().filter(|(x, _)| self.context.signs.get(*x).is_some()).count());
         first.filter(|m| self.solve_for(m).is_some()).cloned()

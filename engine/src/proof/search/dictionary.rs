@@ -1,7 +1,7 @@
 //! Translation between the polynomials of the search and those of the checker.
 //!
 //! Their variables are the same, but the search replaces pivots by slack variables, and has the exponents of
-//! exponentials. A quantity in *own* variables is a polynomial of the search without slack variables. In an
+//! exponentials. A quantity in *original* variables is a polynomial of the search without slack variables. In an
 //! *opaque* polynomial exponentials are variables.
 
 use super::algebra::{Monomial, Number, Poly, Ratio};
@@ -13,8 +13,8 @@ use rug::Rational;
 const MAX_POWER: u8 = 4;
 
 impl Knowledge<'_> {
-    /// Returns a quantity of a derivation in own variables.
-    pub fn own(&self, value: &Ratio) -> Ratio {
+    /// Returns a quantity of a derivation in original variables.
+    pub fn original(&self, value: &Ratio) -> Ratio {
         let slacks = self.slacks.iter().rev();
         slacks.fold(value.clone(), |value, (slack, by)| value.replace(&Monomial::of(*slack), by))
     }
@@ -67,7 +67,7 @@ impl Knowledge<'_> {
         self.context.reduce(&self.ratio(of, state))
     }
 
-    /// Returns a polynomial in own variables as one of the checker.
+    /// Returns a polynomial in original variables as one of the checker.
     pub fn polynomial(&self, of: &Poly, state: &State) -> Option<Polynomial> {
         let of = self.without_exponentials(of, state)?;
         let terms = of.terms().map(|(monomial, number)| Some((monomial.to_powers()?, number.to_integer()?)));

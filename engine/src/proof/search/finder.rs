@@ -93,7 +93,7 @@ impl<'a, 'p> Finder<'a, 'p> {
         }
     }
 
-    /// Returns the polynomial of a lemma about a value in own symbols.
+    /// Returns the polynomial of a lemma about a value in original variables.
     pub fn lemma(&mut self, value: &Poly) -> SearchResult<Poly> {
         if self.depth >= MAX_DEPTH {
             return Err("too deep".into());
@@ -117,7 +117,7 @@ impl<'a, 'p> Finder<'a, 'p> {
         self.equated(of, form)
     }
 
-    /// Returns the certificate for l and r in own symbols and quantities, with integers as coefficients.
+    /// Returns the certificate for l and r in original variables and quantities, with integers as coefficients.
     pub fn finished(&self, left: &Poly, right: &Poly) -> SearchResult<Certificate> {
         let [left, right] = [left, right].map(|of| self.guide.polynomial(of, self.state).ok_or("a form"));
         Ok(Certificate { known: self.quantities.clone(), left: left?, right: right? })

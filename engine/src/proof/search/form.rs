@@ -56,9 +56,9 @@ impl Finder<'_, '_> {
         if of.terms().len() < 3 || self.guide.context.errors(of).is_empty() {
             return None;
         }
-        let own = self.guide.own(&of.clone().into());
-        let (rest, product) = self.without_largest_errors(own.num()).ok()?;
-        if product.is_one() || !own.den().is_one() {
+        let original = self.guide.original(&of.clone().into());
+        let (rest, product) = self.without_largest_errors(original.num()).ok()?;
+        if product.is_one() || !original.den().is_one() {
             return None;
         }
         let rest = self.guide.context.reduce(&rest.into());
@@ -66,7 +66,7 @@ impl Finder<'_, '_> {
         Some((form.den().clone(), form.num() * product))
     }
 
-    /// Divides a value in own symbols by its factors 2ᵖ + 1 + e. Returns the rest, and the product of lemmas
+    /// Divides a value in original variables by its factors 2ᵖ + 1 + e. Returns the rest, and the product of lemmas
     /// about them.
     pub fn without_largest_errors(&mut self, of: &Poly) -> SearchResult<(Poly, Poly)> {
         let (mut rest, mut product) = (of.clone(), Poly::constant(1));
@@ -97,9 +97,9 @@ impl Finder<'_, '_> {
     fn square(&mut self, leading: &Certificate, root: &Poly, rest: &Certificate) -> SearchResult<Forms> {
         let (left_of_leading, leading) = self.forms(leading)?;
         let (left_of_rest, rest) = self.forms(rest)?;
-        let own = self.guide.own(&root.clone().into());
-        let (value, _) = integral(own.num(), own.num());
-        let scale = own.checked_div(&value.clone().into()).ok_or("a zero root")?;
+        let original = self.guide.original(&root.clone().into());
+        let (value, _) = integral(original.num(), original.num());
+        let scale = original.checked_div(&value.clone().into()).ok_or("a zero root")?;
         if [scale.num(), scale.den()].into_iter().any(|part| part.terms().len() != 1) {
             return Err("the scale of a root".into());
         }
@@ -137,9 +137,9 @@ impl Finder<'_, '_> {
 
     /// Returns the forms of a function whose sign follows from that of its slope.
     fn slope(&mut self, of: &Certificate, x: usize, signs: [Sign; 2]) -> SearchResult<Forms> {
-        let own = self.guide.own(&of.of().clone().into());
+        let original = self.guide.original(&of.of().clone().into());
         for i in 0..self.state.facts.iter().len() {
-            let Some(scale) = self.scale(&own, i) else { continue };
+            let Some(scale) = self.scale(&original, i) else { continue };
             let symbol = self.fact(i);
             return Ok((scale.den().clone(), scale.num() * symbol));
         }
@@ -147,7 +147,7 @@ impl Finder<'_, '_> {
             return Err("the slope in a slack variable".into());
         }
         let is_falling = of.sign().implies(Sign::NonPositive);
-        let num = if is_falling { -own.num() } else { own.num().clone() };
+        let num = if is_falling { -original.num() } else { original.num().clone() };
         let (num, _) = integral(&num, &num);
         let of = self.guide.polynomial(&num, self.state).ok_or("a function that rises")?;
         let [start, slope] = signs.map(|sign| relation(if is_falling { sign.negated() } else { sign }));
@@ -157,22 +157,22 @@ impl Finder<'_, '_> {
     }
 
     /// Returns the quotient of a value and a fact if it is one of single terms.
-    fn scale(&self, own: &Ratio, fact: usize) -> Option<Ratio> {
+    fn scale(&self, original: &Ratio, fact: usize) -> Option<Ratio> {
         let (fact, _) = self.state.facts.get(fact).ok()?;
         if fact.terms().len() < 2 {
             return None;
         }
         let fact = opaque(fact);
-        let scale = if own.num().has_exponentials() {
-            let num = self.guide.without_exponentials(own.num(), self.state)?;
+        let scale = if original.num().has_exponentials() {
+            let num = self.guide.without_exponentials(original.num(), self.state)?;
             let [a, b] = [&num, &fact].map(|of| of.terms().last().map(|(_, q)| Poly::constant(q.clone())));
             let (a, b) = (a?, b?);
             if &num * &b != &fact * &a {
                 return None;
             }
-            Ratio::from(a).checked_div(&(b * own.den()).into())?
+            Ratio::from(a).checked_div(&(b * original.den()).into())?
         } else {
-            own.checked_div(&fact.into())?
+            original.checked_div(&fact.into())?
         };
         let is_simple = [scale.num(), scale.den()].into_iter().all(|part| part.terms().len() == 1);
         is_simple.then_some(scale)

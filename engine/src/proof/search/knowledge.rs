@@ -23,7 +23,7 @@ pub struct AssumedFact {
 pub struct Knowledge<'a> {
     pub problem: &'a Problem<'a>,
     pub context: Context,
-    /// The slack variables, with their values in own variables.
+    /// The slack variables, with their values in original variables.
     pub slacks: Vec<(usize, Ratio)>,
     /// The fact of each assumption, except for those of intervals and absolute values.
     pub facts: Vec<Option<AssumedFact>>,
@@ -88,11 +88,11 @@ impl<'a> Knowledge<'a> {
         let Some(last) = self.context.assumptions.last() else { return };
         match &last.usage {
             AssumptionUse::Pivot(_, _, Some(slack)) => {
-                let value = (*slack, self.own(&last.slack_value()));
+                let value = (*slack, self.original(&last.slack_value()));
                 self.slacks.push(value);
             }
             AssumptionUse::Interval(x, by, _) => {
-                let (x, by) = (Monomial::of(*x), self.own(by));
+                let (x, by) = (Monomial::of(*x), self.original(by));
                 for (_, value) in &mut self.slacks {
                     *value = value.replace(&x, &by);
                 }

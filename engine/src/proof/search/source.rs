@@ -175,10 +175,10 @@ impl Search<'_> {
             if !self.has_same_errors(&known.value, value) {
                 continue;
             }
-            let (own, scale) = reduced
+            let (unscaled, scale) = reduced
                 .get_or_insert_with(|| self.without_scales(&self.known.reduced_quotient(value, state)));
             let (other, before) = self.without_scales(&self.known.reduced_quotient(&known.value, state));
-            if !(&other - &*own).is_zero() {
+            if !(&other - &*unscaled).is_zero() {
                 continue;
             }
             let factor = scale.checked_div(&before).ok_or("a power of two")?;
@@ -228,8 +228,8 @@ impl Search<'_> {
         if let Some(i) = state.sizes.iter().position(|known| known.size == size) {
             return Ok(AbsoluteValue::Same(i));
         }
-        let own = self.problem().table.variable(Atom::Size(of))?;
-        if own == size { Ok(AbsoluteValue::Atom) } else { Err("an absolute value before its own".into()) }
+        let atom = self.problem().table.variable(Atom::Size(of))?;
+        if atom == size { Ok(AbsoluteValue::Atom) } else { Err("an absolute value before its own".into()) }
     }
 }
 

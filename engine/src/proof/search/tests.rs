@@ -135,13 +135,13 @@ fn hypotheses_without_a_pivot_are_retained() {
 
 #[test]
 fn nested_case_distinctions_are_limited() {
-    let brackets = |n: u32| {
+    let positive_parts = |n: u32| {
         let all = ["u", "v", "w", "y", "z"].map(|name| x(name).positive_part());
         let sum = all.into_iter().take(n as usize).fold(Tree::zero(), |sum, bracket| sum + bracket);
         outcome(vec![], Proposition::Equal(sum.clone(), sum))
     };
-    assert!(brackets(MAX_NESTED_CASES as u32).is_ok());
-    assert!(matches!(brackets(MAX_NESTED_CASES as u32 + 1), Err(ProofError::UndecidedBranch(_))));
+    assert!(positive_parts(MAX_NESTED_CASES as u32).is_ok());
+    assert!(matches!(positive_parts(MAX_NESTED_CASES as u32 + 1), Err(ProofError::UndecidedBranch(_))));
 }
 
 #[test]
@@ -324,8 +324,8 @@ fn statements_and_proofs_of_excessive_size_are_rejected() {
         names.iter().map(deep).fold(int(0), |sum, tree| sum + tree)
     };
     let positive: Vec<_> = names.iter().map(|name| above_zero(x(name))).collect();
-    let brackets = chains(|tree| tree.positive_part());
-    assert!(proved(positive.clone(), Proposition::Sign(Relation::Positive, brackets)));
+    let positive_parts = chains(|tree| tree.positive_part());
+    assert!(proved(positive.clone(), Proposition::Sign(Relation::Positive, positive_parts)));
     let roundings = Proposition::Sign(Relation::Positive, chains(|tree| tree.round()));
     assert!(matches!(outcome(positive, roundings), Err(ProofError::Premise(Premise::TooManyRoundings))));
 }

@@ -110,7 +110,7 @@ impl<'w, 'p> Writer<'w, 'p> {
             }
             let Ok(value) = reader.value(*of) else { continue };
             let mut known = state.exponents.iter();
-            let same = known.find(|(_, own)| state.facts.are_equal(own, &value).unwrap_or(false));
+            let same = known.find(|(_, exponent)| state.facts.are_equal(exponent, &value).unwrap_or(false));
             let other = match same {
                 _ if value.num.is_zero() => "exp_0".into(),
                 Some((y, _)) => format!("F{y}"),

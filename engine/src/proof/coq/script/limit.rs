@@ -122,7 +122,7 @@ impl Limit<'_> {
         match &moving[..] {
             [] => {
                 script.line(&format!("apply (limit_at_infinity _ {g}); cbv beta."));
-                script.block("-", |own| self.equation(own, None))?;
+                script.block("-", |script| self.equation(script, None))?;
             }
             [(y, part)] => {
                 let unlike = "an exponential is not that of a constant rate, or has a factor that grows";
@@ -138,17 +138,19 @@ impl Limit<'_> {
                 let factor = self.expr(part)?.divided_by(self.expr(&den)?).argument();
                 let rate = self.expr(&rate)?.divided_by(self.expr(&below)?).argument();
                 script.line(&format!("apply (limit_with_decay _ {g} {factor} {rate}); cbv beta."));
-                script.block("-", |own| self.equation(own, Some((*y, rate))))?;
-                script.block("-", |own| self.at_zero(own, |writer| Ok(writer.shown(&["Known".into()]))))?;
+                script.block("-", |script| self.equation(script, Some((*y, rate))))?;
+                script.block("-", |script| {
+                    self.at_zero(script, |writer| Ok(writer.shown(&["Known".into()])))
+                })?;
             }
             _ => return Err("there is more than one exponential".into()),
         }
-        script.block("-", |own| {
-            self.at_zero(own, |writer| Ok(format!("auto_derive; {}", writer.call("derived"))))
+        script.block("-", |script| {
+            self.at_zero(script, |writer| Ok(format!("auto_derive; {}", writer.call("derived"))))
         })?;
         let last = self.steps.last().ok_or("a limit without a value")?;
-        script.block("-", |own| {
-            self.at_zero(own, |writer| {
+        script.block("-", |script| {
+            self.at_zero(script, |writer| {
                 let reason = writer.reason(last)?;
                 Ok(writer.shown(&[reason]))
             })
