@@ -62,7 +62,7 @@ impl<D: Domain> Domain for &D {
     }
 }
 
-/// Rational numbers, with balls for what depends on eˣ.
+/// Rational numbers; balls enclose values that depend on eˣ.
 #[derive(Clone, Debug)]
 pub struct Rationals {
     /// 2ᵖ for the precision to which roundings round.
@@ -131,10 +131,7 @@ impl Quantity for Value {
     }
 
     fn exact(&self) -> Option<&Exact> {
-        match self {
-            Value::Exact(x) => Some(x),
-            Value::Ball(_) => None,
-        }
+        if let Value::Exact(x) = self { Some(x) } else { None }
     }
 }
 

@@ -334,7 +334,7 @@ impl<'a, D: Domain, S: Fn(&'static str) -> D::Value> Evaluation<'a, D, S> {
         }
     }
 
-    /// Returns the failure of formulas of which one is undefined.
+    /// Returns the failure that a divisor of one of the formulas is 0; `None` if no such divisor is found.
     fn undefined(&self, places: &[usize]) -> Outcome<D::Value> {
         let divisor = places.iter().find_map(|place| self.zero_divisor(*place))?;
         Some(Err(Failure::Undefined(divisor)))

@@ -168,10 +168,8 @@ impl Hypothesis {
 /// # Panics
 /// Panics if the formula is not a symbol.
 pub(super) fn name_of(symbol: &Tree) -> &'static str {
-    match symbol.op() {
-        Op::Symbol(name) => name,
-        _ => panic!("{symbol} is not a symbol"),
-    }
+    let Op::Symbol(name) = symbol.op() else { panic!("{symbol} is not a symbol") };
+    name
 }
 
 #[cfg(test)]

@@ -251,14 +251,14 @@ impl Registry {
         self.names(None).of(tree)
     }
 
-    /// Returns the names of the arguments that an abbreviation with `many` arguments displays.
+    /// Returns the names of the arguments that an abbreviation with `count` arguments displays.
     pub(crate) fn displayed_arguments<'f>(
         &'f self,
         formula: &'f Formula,
-        many: usize,
+        count: usize,
     ) -> impl Iterator<Item = &'static str> + 'f {
-        let all = many == formula.depends_on().count();
-        formula.depends_on().filter(move |name| many > 0 && (all || !self.implicit.contains(name)))
+        let all = count == formula.depends_on().count();
+        formula.depends_on().filter(move |name| count > 0 && (all || !self.implicit.contains(name)))
     }
 
     /// Formats a formula with abbreviations.

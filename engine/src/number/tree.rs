@@ -171,10 +171,7 @@ impl Tree {
         symbol: &impl Fn(&'static str) -> T,
         target: &T,
     ) -> Option<T> {
-        let extra_ops = |op: Op<&Dual<T>>| match op {
-            Op::Rounded(x) => Some(x.clone()),
-            _ => None,
-        };
+        let extra_ops = |op: Op<&Dual<T>>| if let Op::Rounded(x) = op { Some(x.clone()) } else { None };
         let Dual { value, derivative } = self.derivative(by, symbol, &extra_ops)?;
         derivative.is_invertible().then(|| symbol(by) + (target - value) / derivative)
     }

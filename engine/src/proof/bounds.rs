@@ -17,7 +17,6 @@ use crate::number::{Field, Tree};
 use rayon::iter::Either;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
-use std::fmt;
 
 /// A proved bound of the rounding error of a formula.
 #[derive(Clone, Debug)]
@@ -39,21 +38,14 @@ impl RoundingBound {
 }
 
 /// Error of a search for a bound.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("no bound of the rounding error of {formula} was found: {reason}")]
 pub struct RoundingBoundError {
     /// First formula without a bound of its rounding error.
     pub formula: Tree,
     /// The reason.
     pub reason: ProofError,
 }
-
-impl fmt::Display for RoundingBoundError {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "no bound of the rounding error of {} was found: {}", self.formula, self.reason)
-    }
-}
-
-impl std::error::Error for RoundingBoundError {}
 
 /// Returns the smallest constant K, up to 2 %, for which |fl(f) − f| ≤ K m/2ᵖ is proved from hypotheses for
 /// every precision p, with its proof. Here fl(f) is `of` with [each operation rounded](Tree::with_rounding),
@@ -115,10 +107,7 @@ enum Form {
 
 /// Returns a formula without its roundings.
 fn exact(of: &Tree) -> Tree {
-    of.rewrite(&|tree| match tree.op() {
-        Op::Rounded(of) => Some(of.clone()),
-        _ => None,
-    })
+    of.rewrite(&|tree| if let Op::Rounded(of) = tree.op() { Some(of.clone()) } else { None })
 }
 
 /// m 2ⁿ, with 64 ≤ m ≤ 128 or m = 0.

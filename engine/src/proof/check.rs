@@ -16,7 +16,7 @@
 //! it. It does not search, and an error in a proof can only make it refuse.
 //!
 //! The variables of polynomials are the [atoms](Atom) of the goal: its symbols, the errors of its rounded
-//! formulas, the places of symbols in their intervals, its absolute values with their factors, and its
+//! formulas, the parameters of symbols in their intervals, its absolute values with their factors, and its
 //! exponentials. The goal and its hypotheses determine them.
 //!
 //! # Rounding

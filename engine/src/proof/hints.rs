@@ -15,13 +15,13 @@ use crate::formula::statement::{Proposition, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
 
-/// Largest number of symbols whose signs and differences are tried.
+/// Maximum number of symbols whose signs and differences are tried.
 const MAX_SYMBOLS: usize = 6;
 
-/// Largest size of a formula at which a proof failed whose sign is tried.
+/// Maximum size of the formula at which a proof failed, if its sign is tried.
 const MAX_OBSTACLE: u32 = 24;
 
-/// Largest number of suggestions.
+/// Maximum number of suggestions.
 const MAX_HINTS: usize = 3;
 
 /// Number of points at which a claim is tested before a proof is attempted.

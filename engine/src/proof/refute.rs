@@ -62,8 +62,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns a refutation where a divisor is 0, by changing one coordinate of a point: most divisors are
-    /// linear in some coordinate.
+    /// Returns a refutation at a point that differs from this one in one coordinate, so that a divisor is 0. Most
+    /// divisors are linear in some coordinate.
     fn refute_at_pole(&self, point: &Point) -> Option<Refutation> {
         let mut divisors: Vec<&Tree> = Vec::new();
         for tree in self.statement.goals().iter().flat_map(|goal| goal.proposition.trees()) {

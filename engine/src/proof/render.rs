@@ -268,7 +268,7 @@ fn leaves(node: &Node) -> Vec<&Leaf> {
 /// An abbreviated formula.
 struct Called<'a> {
     formula: &'a Formula,
-    /// Largest number of displayed arguments.
+    /// Maximum number of displayed arguments.
     arguments: usize,
 }
 

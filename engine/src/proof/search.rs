@@ -53,7 +53,7 @@ use source::Search;
 pub enum Failure {
     /// The branch of a positive part, minimum or absolute value is undecided by this quantity.
     Branch(Quantity),
-    /// The sign of this function, whose parts are still to be proved, would help.
+    /// The sign of this function is required; its parts are still to be proved.
     Rise(Box<Rise>),
     /// The reason for which no proof is found.
     Error(ProofError),
@@ -380,10 +380,7 @@ impl<'a> Attempt<'a> {
 
 /// Returns the quantity of a case, and its sign, if the decision is one.
 fn case(decision: &Decision) -> Option<(Polynomial, Sign)> {
-    match decision {
-        Decision::Case { on, sign, .. } => Some((on.clone(), *sign)),
-        Decision::Size { .. } => None,
-    }
+    if let Decision::Case { on, sign, .. } = decision { Some((on.clone(), *sign)) } else { None }
 }
 
 /// Returns the operands of a difference if both are rounded.

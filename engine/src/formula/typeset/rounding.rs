@@ -132,8 +132,5 @@ fn is_number(tree: &Tree) -> bool {
 }
 
 fn unsigned(tree: &Tree) -> &Tree {
-    match tree.op() {
-        Neg(a) => unsigned(a),
-        _ => tree,
-    }
+    if let Neg(a) = tree.op() { unsigned(a) } else { tree }
 }

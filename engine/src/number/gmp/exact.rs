@@ -257,7 +257,7 @@ impl ToExact for f64 {
         to_ieee(&x.0, 53, "f64").map(|(x, ordering)| (x.to_f64(), ordering))
     }
 }
-/// A constant rounds nothing.
+/// A constant represents every rational exactly.
 impl ToExact for Mpfr {
     fn to_exact(&self) -> Result<Exact, NonFiniteError> {
         let float = || self.as_float().map_or(0.0, Float::to_f64);

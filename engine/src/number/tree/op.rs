@@ -6,7 +6,7 @@ use std::fmt;
 /// The last operation of a formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Op<T> {
-    /// A quantity.
+    /// A symbol.
     Symbol(&'static str),
     /// A small integer.
     Int(i32),
@@ -139,10 +139,7 @@ pub fn piecewise_ops<T: PositivePart>(op: Op<&T>) -> Option<T> {
 
 /// Evaluates eˣ, for [`Tree::eval`](super::Tree::eval).
 pub fn smooth_ops<T: Exponential>(op: Op<&T>) -> Option<T> {
-    match op {
-        Op::Exp(a) => Some(a.exp()),
-        _ => None,
-    }
+    if let Op::Exp(a) = op { Some(a.exp()) } else { None }
 }
 
 /// Evaluates eˣ, ⟨·⟩ and min, for [`Tree::eval`](super::Tree::eval).

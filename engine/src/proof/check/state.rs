@@ -31,7 +31,7 @@ pub struct State<'p> {
     /// The exponentials met so far, with their exponents.
     pub exponents: Vec<(usize, Quotient)>,
     /// The values of symbols in intervals.
-    places: FxHashMap<&'static str, Quotient>,
+    symbols: FxHashMap<&'static str, Quotient>,
     /// The values of formulas.
     values: FxHashMap<usize, Quotient>,
 }
@@ -79,8 +79,8 @@ impl<'p> State<'p> {
         });
         let mut facts = Facts::default();
         facts.add(Polynomial::constant(2), Sign::Positive);
-        let (assumed, rounded, sizes, exponents, places, values) = Default::default();
-        State { problem, facts, signs: signs.collect(), assumed, rounded, sizes, exponents, places, values }
+        let (assumed, rounded, sizes, exponents, symbols, values) = Default::default();
+        State { problem, facts, signs: signs.collect(), assumed, rounded, sizes, exponents, symbols, values }
     }
 
     /// Adds a fact and returns its number.
@@ -176,7 +176,7 @@ impl<'p, S: Source> Reader<'p, S> {
     fn value_of_op(&mut self, op: Op<usize>) -> Checked<Quotient> {
         use Op::*;
         Ok(match op {
-            Symbol(name) => match self.state.places.get(name) {
+            Symbol(name) => match self.state.symbols.get(name) {
                 Some(value) => value.clone(),
                 None => self.state.variable(Atom::Own(name))?.into(),
             },
@@ -328,9 +328,9 @@ impl<'p, S: Source> Reader<'p, S> {
             let (sum, length) =
                 (self.state.facts.sum(&upper, 1, &lower)?, self.state.facts.sum(&upper, -1, &lower)?);
             let half = Quotient { num: Polynomial::constant(1), den: vec![TWO] };
-            let place = self.state.variable(Atom::IntervalParameter(i))?.into();
-            let value = self.state.facts.sum(&sum.times(&half)?, 1, &length.times(&half)?.times(&place)?)?;
-            self.state.places.entry(x).or_insert(value);
+            let t = self.state.variable(Atom::IntervalParameter(i))?.into();
+            let value = self.state.facts.sum(&sum.times(&half)?, 1, &length.times(&half)?.times(&t)?)?;
+            self.state.symbols.entry(x).or_insert(value);
             self.state.values.clear();
         } else {
             let value = self.value(problem.values[i])?;

@@ -23,7 +23,7 @@ pub enum Atom {
     Exponential(usize),
     /// The absolute value of the formula with this number.
     Size(usize),
-    /// The place of a symbol in the interval of the hypothesis with this number: t with −1 ≤ t ≤ 1 at which
+    /// The parameter of a symbol in the interval of the hypothesis with this number: t with −1 ≤ t ≤ 1 such that
     /// the symbol is the midpoint plus t times half the length.
     IntervalParameter(usize),
     /// The factor of the formula with this number: t with −1 ≤ t ≤ 1 such that the formula is t times its

@@ -49,8 +49,8 @@ impl<'a> Page<'a> {
     }
 
     /// Returns the number of an atom or of a quantity of a certificate: z₁ is the first quantity, e₁ the
-    /// first error, t₁ the first place, S₁ and F₁ the first absolute value and its factor, and E₁ the first
-    /// exponential, which its reciprocal follows.
+    /// first error, t₁ the first interval parameter, S₁ and F₁ the first absolute value and its factor, and
+    /// E₁ the first exponential, which its reciprocal follows.
     fn variable(&self, name: &'static str) -> usize {
         let atoms = self.0.table.atoms();
         let mut letters = name.chars();

@@ -62,7 +62,7 @@ impl<'p> Subgoal<'p> {
         write(Subgoal::new(lemma, &problem, hypotheses.iter().map(|h| lemma.label(h)).collect()))
     }
 
-    /// Returns the certificates for the problem.
+    /// Searches for a proof of the problem.
     fn proof(&self) -> Result<Node> {
         let Problem { proposition, hypotheses, .. } = self.problem;
         let found = prove_proposition(proposition, hypotheses.clone()).map_err(|reason| {

@@ -29,7 +29,7 @@ pub enum Mutation {
     Swap(Operator),
     /// min becomes max.
     Maximum,
-    /// The sign before an operand is dropped.
+    /// −a becomes a.
     DropSign,
     /// eᵃ becomes e⁻ᵃ.
     NegateExponent,

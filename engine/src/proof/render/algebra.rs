@@ -137,7 +137,7 @@ pub(super) fn justify(
     }
 }
 
-/// Largest number of terms written out, and of terms with rounding errors.
+/// Maximum number of terms written out, and of terms with rounding errors.
 const SHOWN: usize = 24;
 const SHOWN_OF_ROUNDING: usize = 8;
 

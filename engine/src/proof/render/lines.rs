@@ -20,13 +20,13 @@ use crate::proof::check::{
 };
 use crate::proof::trace::{Step, reread, trace};
 
-/// Largest number of terms of a sum that is written out.
+/// Maximum number of terms of a sum that is written out.
 const SHOWN: usize = 12;
 
-/// Largest number of terms of a quantity that distinguishes cases without a name, and of a left form.
+/// Maximum number of terms of a quantity that distinguishes cases without a name, and of a left form.
 const SHOWN_OF_CASE: usize = 3;
 
-/// Largest number of terms of a sum with rounding errors that is written out.
+/// Maximum number of terms of a sum with rounding errors that is written out.
 const SHOWN_OF_ROUNDING: usize = 6;
 
 /// Number of characters from which a formula is not repeated.

@@ -11,10 +11,10 @@ use oorandom::Rand32;
 /// Maximum nesting of certificates.
 const MAX_CERTIFICATE_DEPTH: u32 = 3;
 
-/// Maximum number of terms to which rule 4 is applied; derivatives have even more.
+/// Maximum number of terms of a polynomial to which rule 4 is applied; its derivative may have more.
 const MAX_SLOPE_TERMS: usize = 12;
 
-/// Maximum number of symbols to which rule 6 is applied, one inside the other.
+/// Maximum number of nested applications of rule 6, each to another symbol.
 const MAX_ENDS: u32 = 6;
 
 /// Maximum degree in a symbol to which rule 6 is applied.
@@ -88,7 +88,7 @@ fn has_both_signs(of: &Poly, known: &SignEnv) -> bool {
     false
 }
 
-/// Returns a random value of a symbol that agrees with what is known of it.
+/// Returns a random value of a symbol, with its known sign.
 fn random_value(random: &mut Rand32, x: usize, known: &SignEnv) -> f64 {
     let size = if known.is_unit(x) { 1.0 } else { 2.0_f64.powi(random.rand_range(0..13) as i32 - 6) };
     let sign = known.get(x).filter(|_| !known.is_unit(x));
@@ -219,7 +219,7 @@ fn unit_factor(of: &Poly, known: &SignEnv, symbols: u32) -> Option<Certificate> 
     Some(Certificate::product(of, factor.clone(), bounded(&of.checked_div(factor.of())?, known, symbols)?))
 }
 
-/// The choice of the monomial for which to solve the equation that `value` is its slack variable, or 0.
+/// The choice of the monomial for which to solve the equation that `value` equals its slack variable, or 0.
 pub struct PivotChoice<'a> {
     pub context: &'a Context,
     pub hypothesis: Option<&'a Hypothesis>,
@@ -297,7 +297,7 @@ pub fn multipliers(value: &Ratio, other: &Ratio, known: &SignEnv) -> Vec<Ratio> 
     all
 }
 
-/// Returns the factor m for each of the symbols that can be cancelled.
+/// Returns the factors m for which one of the symbols cancels.
 fn cancelling_multipliers(value: &Ratio, other: &Ratio, symbols: &[usize]) -> Vec<Ratio> {
     let Some(scale) = Ratio::from(other.den().clone()).checked_div(&value.den().clone().into()) else {
         return Vec::new();

@@ -273,7 +273,7 @@ impl Context {
         self.size(&value).is_some()
     }
 
-    /// Returns the absolute value of a quantity, if it is a variable.
+    /// Returns the variable that is the absolute value of a quantity, if there is one.
     pub(in crate::proof) fn size(&self, value: &Ratio) -> Option<usize> {
         self.assumptions.iter().find_map(|assumption| {
             let AssumptionUse::Size { size, .. } = &assumption.usage else { return None };

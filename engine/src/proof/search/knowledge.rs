@@ -103,7 +103,7 @@ impl<'a> Knowledge<'a> {
         self.facts.push(fact);
     }
 
-    /// Replaces the fact of a hypothesis, which is used again.
+    /// Replaces the fact of a hypothesis that is assumed again.
     pub fn assume_again(&mut self, hypothesis: &Hypothesis, fact: AssumedFact) {
         let mut assumptions = self.context.assumptions.iter();
         let index = assumptions.position(|assumption| assumption.hypothesis.as_ref() == Some(hypothesis));

@@ -366,7 +366,7 @@ impl<'w, 'p> Writer<'w, 'p> {
         }
     }
 
-    /// Adds the other hypotheses.
+    /// Adds the remaining hypotheses and equations of exponentials.
     pub(super) fn finish(&mut self) -> Result<()> {
         self.hypotheses_before(self.leaf.hypotheses.len())?;
         self.share_exponentials();

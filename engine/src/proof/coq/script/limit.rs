@@ -73,7 +73,7 @@ impl Limit<'_> {
         !of.has_only(|y| !self.is_variable(y))
     }
 
-    /// Writes a polynomial with exponentials by their formulas.
+    /// Returns a polynomial, with the formulas of exponentials in place of their variables.
     fn expr(&self, of: &Polynomial) -> Result<Expr> {
         let table = &self.subgoal.problem.table;
         if !of.has_only(|x| matches!(table.atoms().get(x), Some(Atom::Own(_) | Atom::Exponential(_)))) {

@@ -12,7 +12,7 @@ pub(super) struct Solution {
     pub(super) steps: Vec<String>,
 }
 
-/// Number of terms that a side has at most if it is written out.
+/// Maximum number of terms of a side that is written out.
 const SHORT: usize = 24;
 
 /// Returns the power of a polynomial.
