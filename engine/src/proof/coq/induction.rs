@@ -132,8 +132,7 @@ impl Induction<'_, '_> {
     fn text(&self) -> Result<String> {
         let perturbed = self.sequence.is_perturbed();
         let invariants = self.claim.statement.invariants().iter();
-        let mut proved: Vec<_> =
-            invariants.map(|invariant| format_hypothesis(invariant, self.claim.printer)).collect();
+        let mut proved: Vec<_> = invariants.map(|h| format_hypothesis(h, self.claim.printer)).collect();
         proved.extend((!perturbed).then(|| self.closed()));
         let labels = numbered_names("I", proved.len());
         let pattern = if labels.len() == 1 { labels[0].clone() } else { format!("({})", labels.join(" & ")) };
@@ -181,9 +180,7 @@ impl Induction<'_, '_> {
         let is_step = matches!(role, Role::Step | Role::InvariantStep);
         let lets = if is_step { self.step_lets() } else { String::new() };
         let lemmas = self.lemmas.iter().filter(move |(goal, _)| goal.role == role);
-        lemmas.map(move |(_, lemma)| {
-            format!("{lets}{}", self.claim.applied(lemma, |hypothesis| self.label(hypothesis)))
-        })
+        lemmas.map(move |(_, lemma)| format!("{lets}{}", self.claim.applied(lemma, |h| self.label(h))))
     }
 
     /// Returns the definitions of ρⁿ, of the n-th member, and of the quantities computed from it.

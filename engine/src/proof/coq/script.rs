@@ -26,7 +26,7 @@ pub(super) struct Script {
 }
 
 /// A problem to be proved in Coq.
-struct Subgoal<'p> {
+struct Target<'p> {
     lemma: &'p Lemma<'p>,
     problem: &'p Problem<'p>,
     /// The labels of its hypotheses.
@@ -39,11 +39,11 @@ fn refused(reason: Refusal) -> String {
     format!("a proof that is refused: {reason:?}")
 }
 
-impl<'p> Subgoal<'p> {
+impl<'p> Target<'p> {
     fn new(lemma: &'p Lemma<'p>, problem: &'p Problem<'p>, labels: Vec<Option<String>>) -> Self {
         let is_smooth = matches!(problem.proposition, Proposition::Derivative(..));
         let tactic = if is_smooth { "auto_derive; derived" } else { "shown" };
-        Subgoal { lemma, problem, labels, tactic }
+        Target { lemma, problem, labels, tactic }
     }
 
     /// Calls `write` with the problem of a proposition whose formulas are simplified, as they are printed.
@@ -51,15 +51,13 @@ impl<'p> Subgoal<'p> {
         lemma: &Lemma,
         hypotheses: &[&Hypothesis],
         proposition: &Proposition,
-        write: impl FnOnce(Subgoal) -> Result<()>,
+        write: impl FnOnce(Target) -> Result<()>,
     ) -> Result<()> {
-        let printed = hypotheses
-            .iter()
-            .map(|hypothesis| Hypothesis { value: simplified(&hypothesis.value), ..(*hypothesis).clone() });
+        let printed = hypotheses.iter().map(|h| Hypothesis { value: simplified(&h.value), ..(*h).clone() });
         let printed: Vec<_> = printed.collect();
         let proposition = proposition.map(&simplified);
         let problem = Problem::new(&proposition, printed.iter().collect()).map_err(refused)?;
-        write(Subgoal::new(lemma, &problem, hypotheses.iter().map(|h| lemma.label(h)).collect()))
+        write(Target::new(lemma, &problem, hypotheses.iter().map(|h| lemma.label(h)).collect()))
     }
 
     /// Searches for a proof of the problem.
@@ -150,36 +148,36 @@ impl Script {
 
     /// Proves a proposition from the hypotheses of a lemma.
     pub(super) fn goal(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
-        Subgoal::with(lemma, lemma.premises(), proposition, |subgoal| self.problem(&subgoal))
+        Target::with(lemma, lemma.premises(), proposition, |target| self.problem(&target))
     }
 
     /// Proves that the left side of an equation is continuous in the variable of the goal.
     pub(super) fn continuity(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
         let tactic = "auto_derive; derived";
-        Subgoal::with(lemma, lemma.premises(), proposition, |subgoal| {
-            self.problem(&Subgoal { tactic, ..subgoal })
+        Target::with(lemma, lemma.premises(), proposition, |target| {
+            self.problem(&Target { tactic, ..target })
         })
     }
 
     /// Proves the proposition of a problem.
-    fn problem(&mut self, subgoal: &Subgoal) -> Result<()> {
-        let node = subgoal.proof()?;
-        self.names(subgoal, |_| true)?;
-        self.node(subgoal, &node, &mut Vec::new())
+    fn problem(&mut self, target: &Target) -> Result<()> {
+        let node = target.proof()?;
+        self.names(target, |_| true)?;
+        self.node(target, &node, &mut Vec::new())
     }
 
-    fn node(&mut self, subgoal: &Subgoal, node: &Node, cases: &mut Vec<(Polynomial, Sign)>) -> Result<()> {
+    fn node(&mut self, target: &Target, node: &Node, cases: &mut Vec<(Polynomial, Sign)>) -> Result<()> {
         match node {
-            Node::Leaf(leaf) => self.leaf(subgoal, leaf, cases),
+            Node::Leaf(leaf) => self.leaf(target, leaf, cases),
             Node::Cases(on, both) => {
                 let case = format!("C{}", cases.len() + 1);
                 let names =
-                    (0..subgoal.problem.table.atoms().len()).map(|x| subgoal.name(x)).collect::<Vec<_>>();
+                    (0..target.problem.table.atoms().len()).map(|x| target.name(x)).collect::<Vec<_>>();
                 let deciding = format!("value {} (polynomial {})", leaf::environment(&names), leaf::text(on));
                 self.line(&format!("destruct (either ({deciding})) as [{case} | {case}]."));
                 for (node, sign) in both.iter().zip([Sign::Positive, Sign::NonPositive]) {
                     cases.push((on.clone(), sign));
-                    self.block("{", |script| script.node(subgoal, node, cases))?;
+                    self.block("{", |script| script.node(target, node, cases))?;
                     cases.pop();
                 }
                 Ok(())
@@ -189,32 +187,32 @@ impl Script {
 
     /// Introduces the chosen atoms with what defines them: B1, B2, … are their signs or bounds, F1, F2, … their
     /// equations.
-    fn names(&mut self, subgoal: &Subgoal, is_chosen: impl Fn(usize) -> bool) -> Result<()> {
+    fn names(&mut self, target: &Target, is_chosen: impl Fn(usize) -> bool) -> Result<()> {
         let precision = ascii(PRECISION);
-        if subgoal.lemma.contains_rounding {
+        if target.lemma.contains_rounding {
             self.line(&format!("pose proof (four_at_least prec {precision} P E) as N."));
             self.line(&format!("assert (M : 0 <= {precision} - 4) by lra."));
         }
         let before = self.lines.len();
-        for (x, atom) in subgoal.problem.table.atoms().iter().enumerate().filter(|(x, _)| is_chosen(*x)) {
+        for (x, atom) in target.problem.table.atoms().iter().enumerate().filter(|(x, _)| is_chosen(*x)) {
             let (rule, names) = match *atom {
                 Atom::Own(_) | Atom::Factor(_) => continue,
                 Atom::Error(of) => {
-                    let of = subgoal.formula(of)?;
+                    let of = target.formula(of)?;
                     (format!("model prec choice {precision} P E {of}"), format!("s{x} & B{x} & F{x}"))
                 }
                 Atom::IntervalParameter(i) => {
-                    let is_near = subgoal.problem.hypotheses[i].distance().is_some();
+                    let is_near = target.problem.hypotheses[i].distance().is_some();
                     let rule = if is_near { "near" } else { "between" };
-                    (format!("{rule} _ _ _ {}", subgoal.label(i)?), format!("s{x} & B{x} & F{x}"))
+                    (format!("{rule} _ _ _ {}", target.label(i)?), format!("s{x} & B{x} & F{x}"))
                 }
                 Atom::Size(of) => {
-                    let y = subgoal.variable(Atom::Factor(of))?;
+                    let y = target.variable(Atom::Factor(of))?;
                     let names = format!("s{x} & s{y} & B{x} & B{y} & F{x} & F{y}");
-                    (format!("absolute {}", subgoal.formula(of)?), names)
+                    (format!("absolute {}", target.formula(of)?), names)
                 }
                 Atom::Exponential(of) => {
-                    (format!("exponential {}", subgoal.formula(of)?), format!("s{x} & B{x} & F{x}"))
+                    (format!("exponential {}", target.formula(of)?), format!("s{x} & B{x} & F{x}"))
                 }
             };
             self.line(&format!("destruct ({rule}) as ({names})."));

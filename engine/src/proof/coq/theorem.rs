@@ -43,9 +43,7 @@ impl<'a> Claim<'a> {
                 _ if rates.is_empty() => self.with_proof("Theorem", &self.lemma(goal), goal)?,
                 _ => return Err("several goals".into()),
             },
-            (None, computed, [intervals @ .., goal]) if intervals.len() == computed.len() => {
-                self.computed(intervals, goal)?
-            }
+            (None, all, [parts @ .., goal]) if parts.len() == all.len() => self.computed(parts, goal)?,
             _ => return Err("a computed quantity among several goals".into()),
         };
         Ok(self.defined()? + &text)

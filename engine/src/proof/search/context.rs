@@ -74,7 +74,7 @@ impl Context {
 
     /// Returns a polynomial with the sign of a quotient whose denominator is positive: the numerator without
     /// its factors 2ᵖ + 1 + e, which are positive.
-    pub(in crate::proof) fn sign_numerator(&self, value: &Ratio) -> Poly {
+    pub(super) fn sign_numerator(&self, value: &Ratio) -> Poly {
         let largest = self.inverse_gamma();
         self.errors(value.num()).into_iter().fold(value.num().clone(), |rest, error| {
             let nearest = &largest + Ratio::from(Poly::variable(error));
@@ -83,12 +83,12 @@ impl Context {
     }
 
     /// Returns 2ᵖ + 1, the reciprocal of the largest relative rounding error.
-    pub(in crate::proof) fn inverse_gamma(&self) -> Ratio {
+    pub(super) fn inverse_gamma(&self) -> Ratio {
         self.reduce(&self.largest.clone().into())
     }
 
     /// Replaces every pivot, repeatedly; the result is equal to `value` under the assumptions.
-    pub(in crate::proof) fn reduce(&self, value: &Ratio) -> Ratio {
+    pub(super) fn reduce(&self, value: &Ratio) -> Ratio {
         let mut value = value.clone();
         // Substitutions could reintroduce each other's pivots indefinitely; some are then left in the value.
         for _ in &self.substitutions {
@@ -107,7 +107,7 @@ impl Context {
     }
 
     /// Returns the sign of a reduced quotient if the rules find those of numerator and denominator.
-    pub(in crate::proof) fn sign(&self, value: Ratio, factors: &[Certificate]) -> Option<SignedRatio> {
+    pub(super) fn sign(&self, value: Ratio, factors: &[Certificate]) -> Option<SignedRatio> {
         self.sign_under(value, factors, &self.signs)
     }
 
@@ -125,11 +125,7 @@ impl Context {
 
     /// Returns the sign of a reduced quotient v, directly or by a [retained](Self::retained) quantity h:
     /// v = m h + (v − m h) has the common sign of the two terms.
-    pub(in crate::proof) fn sign_by_retained(
-        &self,
-        value: Ratio,
-        factors: &[Certificate],
-    ) -> Option<SignedRatio> {
+    pub(super) fn sign_by_retained(&self, value: Ratio, factors: &[Certificate]) -> Option<SignedRatio> {
         self.sign(value.clone(), factors).or_else(|| {
             self.retained.iter().rev().find_map(|(h, sign)| {
                 let h = self.reduce(h);
@@ -155,34 +151,27 @@ impl Context {
     }
 
     /// Returns `true` if a symbol is not replaced, so that an interval may give it a value.
-    pub(in crate::proof) fn is_free(&self, x: usize) -> bool {
+    pub(super) fn is_free(&self, x: usize) -> bool {
         let quantity = Ratio::from(Poly::variable(x));
         self.reduce(&quantity) == quantity
     }
 
     /// Adds the assumption that a quantity has a sign.
-    pub(in crate::proof) fn assume_sign(
-        &mut self,
-        hypothesis: Option<&Hypothesis>,
-        value: Ratio,
-        sign: Sign,
-    ) {
+    pub(super) fn assume_sign(&mut self, hypothesis: Option<&Hypothesis>, value: Ratio, sign: Sign) {
         let value = self.reduce(&value);
-        let (hypothesis, mut divided_by) = (hypothesis.cloned(), None);
+        let mut divided_by = None;
         let used = match sign {
             _ if self.sign(value.clone(), &[]).is_some_and(|signed| signed.sign().implies(sign)) => {
                 AssumptionUse::Implied
             }
             Sign::Negative | Sign::NonPositive => {
-                return self.assume_sign(hypothesis.as_ref(), -value, sign.negated());
+                return self.assume_sign(hypothesis, -value, sign.negated());
             }
             Sign::Positive | Sign::NonNegative => {
                 if let Some(x) = as_variable(&value) {
                     self.signs.set(x, Some(sign));
                     AssumptionUse::Variable(x)
-                } else if let Some((divisor, (pivot, by), slack)) =
-                    self.solve(hypothesis.as_ref(), &value, sign)
-                {
+                } else if let Some((divisor, (pivot, by), slack)) = self.solve(hypothesis, &value, sign) {
                     divided_by = divisor;
                     self.symbols.extend(self.next_symbol(Symbol::Slack).map(|symbol| (slack, symbol)));
                     self.signs.set(slack, Some(sign));
@@ -193,12 +182,13 @@ impl Context {
                 }
             }
             Sign::Zero => self
-                .pivot(hypothesis.as_ref(), &value, &Poly::zero(), &self.signs)
+                .pivot(hypothesis, &value, &Poly::zero(), &self.signs)
                 .map_or(AssumptionUse::Unused, |(pivot, by)| AssumptionUse::Pivot(pivot, by, None)),
         };
         if let AssumptionUse::Pivot(pivot, by, _) = &used {
             self.replace(pivot.clone(), by.clone());
         }
+        let hypothesis = hypothesis.cloned();
         self.assumptions.push(Assumption { hypothesis, value, divisor: divided_by, usage: used });
     }
 
@@ -222,7 +212,7 @@ impl Context {
     /// Adds the assumption that a symbol lies in an interval, as the midpoint plus t times half the length,
     /// for some t between −1 and 1, the interval parameter. A known sign of the symbol, which this does not
     /// imply, is retained.
-    pub(in crate::proof) fn assume_interval(
+    pub(super) fn assume_interval(
         &mut self,
         hypothesis: &Hypothesis,
         [x, parameter]: [usize; 2],
@@ -251,7 +241,7 @@ impl Context {
 
     /// Replaces a quantity x by t s, where s is its absolute value and −1 ≤ t ≤ 1, given the variables of s and
     /// t, and 2 x. Returns `false` if x cannot be replaced.
-    pub(in crate::proof) fn assume_size(&mut self, [size, factor]: [usize; 2], twice: &Ratio) -> bool {
+    pub(super) fn assume_size(&mut self, [size, factor]: [usize; 2], twice: &Ratio) -> bool {
         let sizes = self.assumptions.iter().filter(|known| matches!(known.usage, AssumptionUse::Size { .. }));
         if sizes.count() == MAX_SIZES {
             return false;
@@ -274,7 +264,7 @@ impl Context {
     }
 
     /// Returns the variable that is the absolute value of a quantity, if there is one.
-    pub(in crate::proof) fn size(&self, value: &Ratio) -> Option<usize> {
+    pub(super) fn size(&self, value: &Ratio) -> Option<usize> {
         self.assumptions.iter().find_map(|assumption| {
             let AssumptionUse::Size { size, .. } = &assumption.usage else { return None };
             let [difference, sum] = [&assumption.value - value, &assumption.value + value];

@@ -3,7 +3,7 @@
 use super::algebra::{Monomial, Poly, Ratio};
 use super::assumption::AssumptionUse;
 use super::dictionary::{integral, opaque};
-use super::finder::{Finder, SearchResult};
+use super::finder::{Finder, Result};
 use crate::proof::check::{Atom, Certificate, Known, Polynomial};
 
 /// An equation v = 0, as a combination of quantities that are 0.
@@ -97,7 +97,7 @@ fn divided(of: &Poly, x: usize, inverse: &Poly, rest: &Poly) -> Eliminated {
 
 impl Finder<'_, '_> {
     /// Returns a certificate with l f = r, for forms l and r whose difference vanishes, maybe by equations.
-    pub fn equated(&mut self, of: &Polynomial, form: Ratio) -> SearchResult<Certificate> {
+    pub fn equated(&mut self, of: &Polynomial, form: Ratio) -> Result<Certificate> {
         let left = self.guide.without_exponentials(form.den(), self.state).ok_or("an exponential")?;
         let right = self.guide.without_exponentials(form.num(), self.state).ok_or("an exponential")?;
         let (left, right) = without_common_factor(left, right);
@@ -117,7 +117,7 @@ impl Finder<'_, '_> {
     }
 
     /// Returns the equations among the hypotheses and exponentials.
-    fn equations(&mut self) -> SearchResult<Vec<Equation>> {
+    fn equations(&mut self) -> Result<Vec<Equation>> {
         let guide = self.guide;
         let atoms = guide.problem.table.atoms().iter();
         let symbols = atoms.filter(|atom| matches!(atom, Atom::Own(_))).count();
@@ -166,7 +166,7 @@ impl Finder<'_, '_> {
 
     /// Returns a combination of quantities that are 0 which is `difference`. Multiplies the forms by what the
     /// difference has to be multiplied by.
-    fn vanishing(&mut self, mut difference: Poly, left: &mut Poly, right: &mut Poly) -> SearchResult<Poly> {
+    fn vanishing(&mut self, mut difference: Poly, left: &mut Poly, right: &mut Poly) -> Result<Poly> {
         let mut equations = self.equations()?;
         let mut found = Poly::zero();
         while !equations.is_empty() && !difference.is_zero() {
@@ -196,7 +196,7 @@ impl Finder<'_, '_> {
     }
 
     /// Returns a power of a coefficient as a quotient of forms.
-    fn form_of_power(&mut self, power: &Poly) -> SearchResult<Ratio> {
+    fn form_of_power(&mut self, power: &Poly) -> Result<Ratio> {
         let (rest, product) = self.without_largest_errors(power)?;
         let guide = self.guide;
         let reduced = guide.context.reduce(&rest.into());

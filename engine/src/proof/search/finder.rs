@@ -12,7 +12,7 @@ use crate::proof::check::{Certificate, Known, MAX_VARIABLES, Polynomial, Sign, S
 const MAX_DEPTH: u32 = 4;
 
 /// The result of a part of a search.
-pub type SearchResult<T> = Result<T, Failure>;
+pub type Result<T> = std::result::Result<T, Failure>;
 
 /// A search for one certificate.
 pub struct Finder<'a, 'p> {
@@ -35,7 +35,7 @@ impl<'a, 'p> Finder<'a, 'p> {
         den: &[usize],
         signed: &SignedRatio,
         state: &'a State<'p>,
-    ) -> SearchResult<Certificate> {
+    ) -> Result<Certificate> {
         Finder::new(guide, state, 0).certificate(of, den, signed)
     }
 
@@ -59,11 +59,8 @@ impl<'a, 'p> Finder<'a, 'p> {
             let mut finder = Finder::new(guide, state, 0);
             let found = finder.form(&signed, &[]).and_then(|form| finder.without_slacks(form));
             let (Ok(form), symbol) = (found, finder.fact(i)) else { continue };
-            let form = if is_multiple {
-                Some(form * Ratio::from(symbol))
-            } else {
-                Ratio::from(symbol).checked_div(&form)
-            };
+            let symbol = Ratio::from(symbol);
+            let form = if is_multiple { Some(form * symbol) } else { symbol.checked_div(&form) };
             if let Ok(found) = finder.equated(of, form?)
                 && state.certify(of, &found).is_ok()
             {
@@ -94,7 +91,7 @@ impl<'a, 'p> Finder<'a, 'p> {
     }
 
     /// Returns the polynomial of a lemma about a value in original variables.
-    pub fn lemma(&mut self, value: &Poly) -> SearchResult<Poly> {
+    pub fn lemma(&mut self, value: &Poly) -> Result<Poly> {
         if self.depth >= MAX_DEPTH {
             return Err("too deep".into());
         }
@@ -106,25 +103,20 @@ impl<'a, 'p> Finder<'a, 'p> {
         Ok(self.quantity(Known::Lemma((of, certificate).into())))
     }
 
-    fn certificate(
-        &mut self,
-        of: &Polynomial,
-        den: &[usize],
-        signed: &SignedRatio,
-    ) -> SearchResult<Certificate> {
+    fn certificate(&mut self, of: &Polynomial, den: &[usize], signed: &SignedRatio) -> Result<Certificate> {
         let form = self.form(signed, den)?;
         let form = self.without_slacks(form)?;
         self.equated(of, form)
     }
 
     /// Returns the certificate for l and r in original variables and quantities, with integers as coefficients.
-    pub fn finished(&self, left: &Poly, right: &Poly) -> SearchResult<Certificate> {
+    pub fn finished(&self, left: &Poly, right: &Poly) -> Result<Certificate> {
         let [left, right] = [left, right].map(|of| self.guide.polynomial(of, self.state).ok_or("a form"));
         Ok(Certificate { known: self.quantities.clone(), left: left?, right: right? })
     }
 
     /// Returns the quantity of an assumption as a quotient of facts.
-    pub fn assumed(&mut self, AssumedFact { fact, den, scale }: &AssumedFact) -> SearchResult<Ratio> {
+    pub fn assumed(&mut self, AssumedFact { fact, den, scale }: &AssumedFact) -> Result<Ratio> {
         let mut value = scale * Ratio::from(self.fact(*fact));
         for i in den {
             value = value.checked_div(&self.fact(*i).into()).ok_or("a zero fact")?;
@@ -133,7 +125,7 @@ impl<'a, 'p> Finder<'a, 'p> {
     }
 
     /// Replaces slack variables by facts.
-    pub fn without_slacks(&mut self, mut form: Ratio) -> SearchResult<Ratio> {
+    pub fn without_slacks(&mut self, mut form: Ratio) -> Result<Ratio> {
         let guide = self.guide;
         for (i, assumption) in guide.context.assumptions.iter().enumerate().rev() {
             let (AssumptionUse::Pivot(_, _, Some(x)) | AssumptionUse::Variable(x)) = &assumption.usage else {

@@ -5,7 +5,7 @@ use super::algebra::{FIRST_SLACK, Poly, Ratio};
 use super::assumption::SignedRatio;
 use super::choice;
 use super::dictionary::{integral, opaque};
-use super::finder::{Finder, SearchResult};
+use super::finder::{Finder, Result};
 use super::rules::{Certificate, Rule};
 use crate::formula::Relation;
 use crate::proof;
@@ -16,7 +16,7 @@ type Forms = (Poly, Poly);
 
 impl Finder<'_, '_> {
     /// Returns the product of a quotient and facts, as a quotient of forms.
-    pub fn form(&mut self, signed: &SignedRatio, facts: &[usize]) -> SearchResult<Ratio> {
+    pub fn form(&mut self, signed: &SignedRatio, facts: &[usize]) -> Result<Ratio> {
         let (left, right) = self.forms(&signed.num)?;
         let (den, rest) = self.cancelled(signed.den.of(), facts);
         let (left_of_den, right_of_den) = match self.by_largest_errors(&den) {
@@ -68,7 +68,7 @@ impl Finder<'_, '_> {
 
     /// Divides a value in original variables by its factors 2ᵖ + 1 + e. Returns the rest, and the product of lemmas
     /// about them.
-    pub fn without_largest_errors(&mut self, of: &Poly) -> SearchResult<(Poly, Poly)> {
+    pub fn without_largest_errors(&mut self, of: &Poly) -> Result<(Poly, Poly)> {
         let (mut rest, mut product) = (of.clone(), Poly::constant(1));
         for factor in self.guide.largest_errors(of) {
             while let Some(quotient) = rest.checked_div(&factor) {
@@ -79,7 +79,7 @@ impl Finder<'_, '_> {
         Ok((rest, product))
     }
 
-    fn forms(&mut self, of: &Certificate) -> SearchResult<Forms> {
+    fn forms(&mut self, of: &Certificate) -> Result<Forms> {
         match of.rule() {
             Rule::Terms => Ok((Poly::constant(1), of.of().clone())),
             Rule::Product(factor, rest) => {
@@ -94,7 +94,7 @@ impl Finder<'_, '_> {
     }
 
     /// Returns 4 a f = r² + d.
-    fn square(&mut self, leading: &Certificate, root: &Poly, rest: &Certificate) -> SearchResult<Forms> {
+    fn square(&mut self, leading: &Certificate, root: &Poly, rest: &Certificate) -> Result<Forms> {
         let (left_of_leading, leading) = self.forms(leading)?;
         let (left_of_rest, rest) = self.forms(rest)?;
         let original = self.guide.original(&root.clone().into());
@@ -112,8 +112,8 @@ impl Finder<'_, '_> {
     }
 
     /// Returns 2ⁿ f = Σ bᵢ (1 + x)ⁱ (1 − x)ⁿ⁻ⁱ.
-    fn ends(&mut self, x: usize, at: &[Certificate]) -> SearchResult<Forms> {
-        let forms: Vec<Forms> = at.iter().map(|end| self.forms(end)).collect::<SearchResult<_>>()?;
+    fn ends(&mut self, x: usize, at: &[Certificate]) -> Result<Forms> {
+        let forms: Vec<Forms> = at.iter().map(|end| self.forms(end)).collect::<Result<_>>()?;
         let (one, x) = (Poly::constant(1), Poly::variable(x));
         let lower = self.bound(&(&one + &x))?;
         let upper = self.bound(&(&one - &x))?;
@@ -128,7 +128,7 @@ impl Finder<'_, '_> {
     }
 
     /// Returns a lemma about 1 + x or 1 − x, which is a form itself.
-    fn bound(&mut self, value: &Poly) -> SearchResult<Poly> {
+    fn bound(&mut self, value: &Poly) -> Result<Poly> {
         let of = self.guide.polynomial(value, self.state).ok_or("a unit")?;
         let (known, left, right) = (Vec::new(), Polynomial::constant(1), of.clone());
         let certificate = proof::check::Certificate { known, left, right };
@@ -136,7 +136,7 @@ impl Finder<'_, '_> {
     }
 
     /// Returns the forms of a function whose sign follows from that of its slope.
-    fn slope(&mut self, of: &Certificate, x: usize, signs: [Sign; 2]) -> SearchResult<Forms> {
+    fn slope(&mut self, of: &Certificate, x: usize, signs: [Sign; 2]) -> Result<Forms> {
         let original = self.guide.original(&of.of().clone().into());
         for i in 0..self.state.facts.iter().len() {
             let Some(scale) = self.scale(&original, i) else { continue };

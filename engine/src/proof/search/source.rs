@@ -5,7 +5,7 @@ use super::algebra::{Poly, Ratio};
 use super::assumption::SignedRatio;
 use super::dictionary::opaque;
 use super::error::Symbol;
-use super::finder::Finder;
+use super::finder::{Finder, Result};
 use super::knowledge::{AssumedFact, Knowledge};
 use super::{Decision, Failure};
 use crate::formula::Relation;
@@ -42,12 +42,12 @@ impl Search<'_> {
         self.known.problem
     }
 
-    fn noted<T>(&mut self, found: Result<T, Failure>) -> Option<T> {
+    fn noted<T>(&mut self, found: Result<T>) -> Option<T> {
         found.map_err(|failure| self.failure.get_or_insert(failure)).ok()
     }
 
     /// Returns a reason for the sign of a polynomial: a fact about it, unless a certificate proves more.
-    fn reason(&mut self, question: Question, state: &State) -> Result<Reason, Failure> {
+    fn reason(&mut self, question: Question, state: &State) -> Result<Reason> {
         let fact = known_fact(question.of, state);
         if let Some((i, sign)) = fact
             && is_definite(sign)
@@ -110,7 +110,7 @@ impl Search<'_> {
         den: &[usize],
         signed: &SignedRatio,
         state: &State,
-    ) -> Result<Certificate, Failure> {
+    ) -> Result<Certificate> {
         let found = Finder::find(&self.known, of, den, signed, state);
         match &self.early {
             Some(early) if !found.as_ref().is_ok_and(|found| state.certify(of, found).is_ok()) => {
@@ -122,7 +122,7 @@ impl Search<'_> {
     }
 
     /// Returns the factors of a divisor: symbols, known facts, errors 2ᵖ + 1 + e, and the rest.
-    fn factors(&mut self, of: usize, value: &Polynomial, state: &State) -> Result<Vec<Polynomial>, Failure> {
+    fn factors(&mut self, of: usize, value: &Polynomial, state: &State) -> Result<Vec<Polynomial>> {
         self.check_divisor(of, state)?;
         let mut rest = opaque(value);
         let mut candidates: Vec<Poly> =
@@ -145,7 +145,7 @@ impl Search<'_> {
     }
 
     /// Checks that a divisor is not 0.
-    fn check_divisor(&mut self, of: usize, state: &State) -> Result<(), Failure> {
+    fn check_divisor(&mut self, of: usize, state: &State) -> Result<()> {
         let value = state.value(of).ok_or(Refusal::Unknown)?;
         if value.num.has_only(|_| false) && !value.num.is_zero() {
             return Ok(());
@@ -163,7 +163,7 @@ impl Search<'_> {
     }
 
     /// Returns the earlier formula that a rounded formula is a power of two times, if there is one.
-    fn same_rounding(&mut self, value: &Quotient, state: &State) -> Result<Option<Same>, Failure> {
+    fn same_rounding(&mut self, value: &Quotient, state: &State) -> Result<Option<Same>> {
         let largest = self.known.context.inverse_gamma();
         if !self.known.sign(largest.clone()).is_some_and(|signed| signed.sign().is_strict()) {
             let divisor = Tree::symbol(PRECISION) + Tree::from(1);
@@ -209,12 +209,7 @@ impl Search<'_> {
     }
 
     /// Returns the translation of the absolute value of a formula.
-    fn absolute_value(
-        &mut self,
-        of: usize,
-        value: &Quotient,
-        state: &State,
-    ) -> Result<AbsoluteValue, Failure> {
+    fn absolute_value(&mut self, of: usize, value: &Quotient, state: &State) -> Result<AbsoluteValue> {
         let value = self.known.ratio(value, state);
         let twice = self.known.context.reduce(&(&value + &value));
         if self.known.context.size(&value).is_none() {

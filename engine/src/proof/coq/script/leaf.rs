@@ -3,7 +3,7 @@
 use super::super::lemma::{Result, spaced};
 use super::super::print::simplified;
 use super::solution::Solution;
-use super::{Script, Subgoal, refused};
+use super::{Script, Target, refused};
 use crate::formula::statement::Proposition;
 use crate::number::{Exponential, Tree};
 use crate::proof::check::{
@@ -15,7 +15,7 @@ use std::iter;
 
 /// A leaf that is being written.
 pub(super) struct Writer<'w, 'p> {
-    subgoal: &'w Subgoal<'w>,
+    target: &'w Target<'w>,
     state: &'w State<'p>,
     leaf: &'w Leaf,
     /// The names of the atoms in scope.
@@ -70,20 +70,20 @@ fn unless_one(n: u128) -> String {
 
 impl<'w, 'p> Writer<'w, 'p> {
     pub(super) fn new(
-        subgoal: &'w Subgoal<'w>,
+        target: &'w Target<'w>,
         state: &'w State<'p>,
         leaf: &'w Leaf,
         is_known: impl Fn(usize) -> bool,
     ) -> Result<Self> {
-        let atoms = subgoal.problem.table.atoms();
+        let atoms = target.problem.table.atoms();
         // A number that does not occur stands for what is not in scope.
         let names =
-            (0..atoms.len()).map(|x| if is_known(x) { subgoal.name(x) } else { "PI".into() }).collect();
+            (0..atoms.len()).map(|x| if is_known(x) { target.name(x) } else { "PI".into() }).collect();
         let (steps, hypotheses, roundings, exponentials, rises, orders, divisors, rounding) =
             Default::default();
         let (facts, numbers) = (1, vec![Some(0)]);
         let mut writer = Writer {
-            subgoal,
+            target,
             state,
             leaf,
             names,
@@ -98,7 +98,7 @@ impl<'w, 'p> Writer<'w, 'p> {
             divisors,
             rounding,
         };
-        for (_, label) in subgoal.known_atoms().filter(|(x, _)| is_known(*x)) {
+        for (_, label) in target.known_atoms().filter(|(x, _)| is_known(*x)) {
             writer.add_fact(label);
         }
         let mut reader = reread(state.clone());
@@ -172,7 +172,7 @@ impl<'w, 'p> Writer<'w, 'p> {
     fn hypotheses_before(&mut self, end: usize) -> Result<()> {
         while self.hypotheses < end {
             let i = self.leaf.hypotheses[self.hypotheses];
-            if self.subgoal.problem.hypotheses[i].interval().is_some() {
+            if self.target.problem.hypotheses[i].interval().is_some() {
                 let x = self.atom(Atom::IntervalParameter(i))?;
                 self.equate(format!("F{x}"));
                 self.hypotheses += 1;
@@ -184,7 +184,7 @@ impl<'w, 'p> Writer<'w, 'p> {
     }
 
     fn atom(&self, atom: Atom) -> Result<usize> {
-        self.subgoal.variable(atom)
+        self.target.variable(atom)
     }
 
     /// Adds the facts before that with a number.
@@ -210,11 +210,11 @@ impl<'w, 'p> Writer<'w, 'p> {
             let next = rest.iter().position(|i| *i == hypothesis).ok_or("a hypothesis that is not listed")?;
             self.hypotheses_before(self.hypotheses + next)?;
             self.hypotheses += 1;
-            return Ok(self.subgoal.labels.get(hypothesis).cloned().flatten());
+            return Ok(self.target.labels.get(hypothesis).cloned().flatten());
         }
         if let Some(known) = state.sizes.iter().find(|known| known.fact == i) {
             self.hypotheses_before(self.last_interval(&known.value))?;
-            let factor = match self.subgoal.problem.table.atoms().get(known.size) {
+            let factor = match self.target.problem.table.atoms().get(known.size) {
                 Some(Atom::Size(of)) => self.atom(Atom::Factor(*of))?,
                 _ => return Err("an absolute value of nothing".into()),
             };
@@ -290,14 +290,13 @@ impl<'w, 'p> Writer<'w, 'p> {
 
     /// Lists the divisors whose factors have signs, and their squares, which occur in derivatives.
     fn list_divisors(&mut self) {
-        let is_smooth = matches!(self.subgoal.problem.proposition, Proposition::Derivative(..));
+        let is_smooth = matches!(self.target.problem.proposition, Proposition::Derivative(..));
         for factors in std::mem::take(&mut self.divisors) {
             let known = self.state.facts.iter().zip(&self.numbers);
             let strict = known.filter(|((_, sign), _)| sign.is_strict());
             let strict: Vec<_> = strict.filter_map(|((of, _), number)| Some((of, (*number)?))).collect();
-            let numbers = factors.iter().map(|factor| {
-                strict.iter().find(|(of, _)| *of == factor).map(|(_, number)| number.to_string())
-            });
+            let facts = factors.iter().map(|factor| strict.iter().find(|(of, _)| *of == factor));
+            let numbers = facts.map(|fact| fact.map(|(_, number)| number.to_string()));
             let Some(numbers) = numbers.collect::<Option<Vec<_>>>() else {
                 self.divisors.push(factors);
                 continue;
@@ -315,7 +314,7 @@ impl<'w, 'p> Writer<'w, 'p> {
     /// Returns the equation of a rounded formula with the error of an earlier one.
     fn share(&self, x: usize, same: &Same) -> Result<String> {
         let y = self.state.rounded.get(same.rounding).ok_or("a rounding of nothing")?.error;
-        let [down, up] = [&same.down, &same.up].map(|of| self.subgoal.polynomial(of).argument());
+        let [down, up] = [&same.down, &same.up].map(|of| self.target.polynomial(of).argument());
         let powers = "ltac:(power_of_two) ltac:(power_of_two)";
         Ok(format!("same_error _ _ {down} {up} _ _ _ _ _ {powers} F{x} F{y}"))
     }
@@ -382,30 +381,25 @@ fn product(all: &[usize]) -> String {
 
 impl Script {
     /// Proves the goal at a leaf.
-    pub(super) fn leaf(
-        &mut self,
-        subgoal: &Subgoal,
-        leaf: &Leaf,
-        cases: &[(Polynomial, Sign)],
-    ) -> Result<()> {
-        let (state, steps) = trace(subgoal.problem, leaf, cases).map_err(refused)?;
+    pub(super) fn leaf(&mut self, target: &Target, leaf: &Leaf, cases: &[(Polynomial, Sign)]) -> Result<()> {
+        let (state, steps) = trace(target.problem, leaf, cases).map_err(refused)?;
         for (rise, i) in leaf.rises.iter().zip(1..) {
-            self.rise(subgoal, &state, rise, i)?;
+            self.rise(target, &state, rise, i)?;
         }
         if !leaf.rises.is_empty() {
             self.line("functions.");
         }
-        let is_double = matches!(subgoal.problem.proposition, Proposition::Within(..));
+        let is_double = matches!(target.problem.proposition, Proposition::Within(..));
         let (steps, goals) = steps.split_at(steps.len().saturating_sub(1 + usize::from(is_double)));
-        let mut writer = Writer::new(subgoal, &state, leaf, |_| true)?;
+        let mut writer = Writer::new(target, &state, leaf, |_| true)?;
         for step in steps {
             writer.step(step)?;
         }
         let Some(Step::Sign { facts, .. }) = goals.first() else { return Err("no goal".into()) };
         writer.catch_up(*facts)?;
         writer.finish()?;
-        if subgoal.tactic != "shown" {
-            self.line(&format!("{}.", writer.call(subgoal.tactic)));
+        if target.tactic != "shown" {
+            self.line(&format!("{}.", writer.call(target.tactic)));
             return Ok(());
         }
         let first = writer.reason(&goals[0])?;
@@ -419,39 +413,39 @@ impl Script {
     }
 
     /// Proves that a function has a sign if its argument has one: X1, X2, …
-    fn rise(&mut self, subgoal: &Subgoal, state: &State, rise: &Rise, i: usize) -> Result<()> {
-        let Some(Atom::Own(x)) = subgoal.problem.table.atoms().get(rise.x) else {
+    fn rise(&mut self, target: &Target, state: &State, rise: &Rise, i: usize) -> Result<()> {
+        let Some(Atom::Own(x)) = target.problem.table.atoms().get(rise.x) else {
             return Err("a function of no symbol".into());
         };
-        let parts = parts_of_rise(subgoal.problem, rise, x).map_err(refused)?;
+        let parts = parts_of_rise(target.problem, rise, x).map_err(refused)?;
         let at_x = state.signs.get(rise.x).copied().flatten().ok_or("an argument without a sign")?;
-        let name = subgoal.name(rise.x);
+        let name = target.name(rise.x);
         let (mut values, mut slopes) = (Vec::new(), Vec::new());
-        for (y, atom) in subgoal.problem.table.atoms().iter().enumerate() {
+        for (y, atom) in target.problem.table.atoms().iter().enumerate() {
             let tree = match atom {
                 Atom::Own(symbol) if rise.of.degree(y) > 0 => Tree::symbol(symbol),
                 Atom::Exponential(of) if rise.of.degree(y) > 0 => {
-                    subgoal.problem.table.formula(*of).map_err(refused)?.exp()
+                    target.problem.table.formula(*of).map_err(refused)?.exp()
                 }
                 // It does not occur in the function.
                 _ => Tree::from(0),
             };
             let slope = simplified(&derivative(&tree, x).map_err(refused)?);
-            values.push(subgoal.lemma.printer.expr(&tree).to_string());
-            slopes.push(subgoal.lemma.printer.expr(&slope).to_string());
+            values.push(target.lemma.printer.expr(&tree).to_string());
+            slopes.push(target.lemma.printer.expr(&slope).to_string());
         }
         let [values, slopes] = [list(values), list(slopes)].map(|all| format!("(fun {name} : R => {all})"));
         let signs: [Sign; 3] = [rise.start.into(), rise.slope.into(), at_x];
         let signs = spaced(signs.map(|sign| format!("A_Polynomials.{sign:?}")));
         self.line(&format!("rises {values} {slopes} {}%string {name}{signs} X{i}.", text(&rise.of)));
         for (proposition, assumed) in &parts {
-            let all = subgoal.problem.hypotheses.iter().copied().zip(&subgoal.labels);
+            let all = target.problem.hypotheses.iter().copied().zip(&target.labels);
             let others = all.filter(|(other, _)| !other.value.symbols().contains(x));
             let (mut hypotheses, mut labels): (Vec<_>, Vec<_>) =
                 others.map(|(other, label)| (other, label.clone())).unzip();
             let kept = labels.iter().flatten().filter(|label| *label != "M").cloned();
             let premises =
-                if subgoal.lemma.contains_rounding { vec!["P".into(), "E".into()] } else { Vec::new() };
+                if target.lemma.contains_rounding { vec!["P".into(), "E".into()] } else { Vec::new() };
             let kept = spaced(kept.chain(premises));
             let minus = if kept.is_empty() { "" } else { " -" };
             hypotheses.extend(assumed);
@@ -465,7 +459,7 @@ impl Script {
                 }
                 let is_slope = matches!(part.proposition, Proposition::Derivative(..));
                 let tactic = if is_slope { "slopes" } else { "shown" };
-                script.problem(&Subgoal { tactic, ..Subgoal::new(subgoal.lemma, &part, labels) })
+                script.problem(&Target { tactic, ..Target::new(target.lemma, &part, labels) })
             })?;
         }
         Ok(())

@@ -3,7 +3,7 @@
 use super::super::expr::Expr;
 use super::super::lemma::{Lemma, Result};
 use super::leaf::Writer;
-use super::{Script, Subgoal, refused};
+use super::{Script, Target, refused};
 use crate::formula::{Hypothesis, Proposition};
 use crate::number::tree::Op;
 use crate::proof::check::{Atom, Leaf, Node, Polynomial, Quotient, Reason, State};
@@ -11,7 +11,7 @@ use crate::proof::trace::{Step, reread, trace};
 
 /// A limit to be proved.
 struct Limit<'l> {
-    subgoal: Subgoal<'l>,
+    target: Target<'l>,
     state: &'l State<'l>,
     leaf: &'l Leaf,
     steps: &'l [Step],
@@ -31,16 +31,16 @@ impl Script {
         hypotheses: &[&Hypothesis],
         proposition: &Proposition,
     ) -> Result<()> {
-        Subgoal::with(lemma, hypotheses, proposition, |subgoal| {
-            let Proposition::Limit(of, by, _) = subgoal.problem.proposition else {
+        Target::with(lemma, hypotheses, proposition, |target| {
+            let Proposition::Limit(of, by, _) = target.problem.proposition else {
                 return Err("no limit".into());
             };
-            let Node::Leaf(leaf) = subgoal.proof()? else { return Err("a limit in cases".into()) };
-            let (state, mut steps) = trace(subgoal.problem, &leaf, &[]).map_err(refused)?;
+            let Node::Leaf(leaf) = target.proof()? else { return Err("a limit in cases".into()) };
+            let (state, mut steps) = trace(target.problem, &leaf, &[]).map_err(refused)?;
             retain_facts(&state, &mut steps);
             let of = reread(state.clone()).translate(of).map_err(refused)?;
-            let x = subgoal.variable(Atom::Own(by))?;
-            Limit { subgoal, state: &state, leaf: &leaf, steps: &steps, by, x, of }.write(self)
+            let x = target.variable(Atom::Own(by))?;
+            Limit { target, state: &state, leaf: &leaf, steps: &steps, by, x, of }.write(self)
         })
     }
 }
@@ -66,7 +66,7 @@ fn retain_facts(state: &State, steps: &mut Vec<Step>) {
 impl Limit<'_> {
     /// Returns `true` if an atom varies with the variable of the limit.
     fn is_variable(&self, y: usize) -> bool {
-        self.subgoal.problem.depends(y, self.by)
+        self.target.problem.depends(y, self.by)
     }
 
     fn depends(&self, of: &Polynomial) -> bool {
@@ -75,16 +75,16 @@ impl Limit<'_> {
 
     /// Returns a polynomial, with the formulas of exponentials in place of their variables.
     fn expr(&self, of: &Polynomial) -> Result<Expr> {
-        let table = &self.subgoal.problem.table;
+        let table = &self.target.problem.table;
         if !of.has_only(|x| matches!(table.atoms().get(x), Some(Atom::Own(_) | Atom::Exponential(_)))) {
             return Err("a limit with other quantities than symbols and exponentials".into());
         }
         Ok(Expr::polynomial(of, |x| match table.atoms()[x] {
             Atom::Exponential(of) => match table.formula(of) {
-                Ok(of) => Expr::call("exp", vec![self.subgoal.lemma.printer.expr(of)]),
-                Err(_) => Expr::name(self.subgoal.name(x)),
+                Ok(of) => Expr::call("exp", vec![self.target.lemma.printer.expr(of)]),
+                Err(_) => Expr::name(self.target.name(x)),
             },
-            _ => Expr::name(self.subgoal.name(x)),
+            _ => Expr::name(self.target.name(x)),
         }))
     }
 
@@ -106,7 +106,7 @@ impl Limit<'_> {
     }
 
     fn write(&self, script: &mut Script) -> Result<()> {
-        let (table, mut rest, mut moving) = (&self.subgoal.problem.table, self.of.num.clone(), Vec::new());
+        let (table, mut rest, mut moving) = (&self.target.problem.table, self.of.num.clone(), Vec::new());
         for (y, atom) in table.atoms().iter().enumerate() {
             let is_moving = matches!(atom, Atom::Exponential(_)) && self.is_variable(y);
             if is_moving && rest.degree(y) > 0 {
@@ -159,16 +159,16 @@ impl Limit<'_> {
 
     /// Proves that the formula is that in 1/x, for positive x, plus a decaying exponential of this rate.
     fn equation(&self, script: &mut Script, decaying: Option<(usize, String)>) -> Result<()> {
-        let name = self.subgoal.name(self.x);
-        let all = self.subgoal.problem.hypotheses.iter().zip(&self.subgoal.labels);
+        let name = self.target.name(self.x);
+        let all = self.target.problem.hypotheses.iter().zip(&self.target.labels);
         let labels = all.map(|(hypothesis, label)| {
             let is_sign = *hypothesis.value.op() == Op::Symbol(self.by);
             label.clone().or(is_sign.then(|| "X".into()))
         });
-        let subgoal = Subgoal::new(self.subgoal.lemma, self.subgoal.problem, labels.collect());
+        let target = Target::new(self.target.lemma, self.target.problem, labels.collect());
         script.line(&format!("intros {name} X."));
-        script.names(&subgoal, |_| true)?;
-        let mut writer = Writer::new(&subgoal, self.state, self.leaf, |_| true)?;
+        script.names(&target, |_| true)?;
+        let mut writer = Writer::new(&target, self.state, self.leaf, |_| true)?;
         let variable = Polynomial::variable(self.x).map_err(refused)?;
         writer.add_fact("X".into());
         for step in self.steps {
@@ -186,8 +186,8 @@ impl Limit<'_> {
 
     /// Proves what does not depend on the variable.
     fn at_zero(&self, script: &mut Script, end: impl Fn(&mut Writer) -> Result<String>) -> Result<()> {
-        script.names(&self.subgoal, |y| !self.is_variable(y))?;
-        let mut writer = Writer::new(&self.subgoal, self.state, self.leaf, |y| !self.is_variable(y))?;
+        script.names(&self.target, |y| !self.is_variable(y))?;
+        let mut writer = Writer::new(&self.target, self.state, self.leaf, |y| !self.is_variable(y))?;
         for step in self.steps {
             match step {
                 Step::Sign { of, .. } if !self.depends(of) => writer.step(step)?,
