@@ -79,14 +79,12 @@ impl Germ {
 
     /// Returns the reciprocal; `None` of 0.
     fn inverse(&self) -> Option<Self> {
-        let Germ { numerator, denominator } = self;
-        match self.sign() {
-            Ordering::Less => Some(Germ { numerator: negated(denominator), denominator: negated(numerator) }),
-            Ordering::Equal => None,
-            Ordering::Greater => {
-                Some(Germ { numerator: denominator.clone(), denominator: numerator.clone() })
-            }
-        }
+        let (numerator, denominator) = match self.sign() {
+            Ordering::Less => (negated(&self.denominator), negated(&self.numerator)),
+            Ordering::Equal => return None,
+            Ordering::Greater => (self.denominator.clone(), self.numerator.clone()),
+        };
+        Some(Germ { numerator, denominator })
     }
 }
 

@@ -27,6 +27,7 @@ mod script;
 mod theorem;
 
 use crate::formula::{Registry, Statement};
+use lemma::spaced;
 use print::{Printer, ascii};
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -133,8 +134,8 @@ impl<'a> Development<'a> {
             files.push(file(ROUNDING, include_str!("coq/rounding.v").to_string()));
         }
         let mut theorems = by_section(&self.written);
-        let mut all: String =
-            theorems.iter().map(|file| format!(" {}", file.name.trim_end_matches(".v"))).collect();
+        let names = theorems.iter().map(|file| file.name.trim_end_matches(".v"));
+        let mut all = spaced(names);
         if let Some((name, text)) = self.more {
             let head = format!("From LIBRARY Require Import {TACTICS} {DEFINITIONS}{all}.\n\n");
             theorems.push(file(name, head + text));
@@ -300,7 +301,7 @@ fn by_section(written: &[Written]) -> Vec<File> {
 /// Returns the header of a file, which requires tactics, those for rounding if needed, and `more`.
 fn header(contains_rounding: bool, more: &str) -> String {
     let names =
-        if contains_rounding { format!("{TACTICS} {ROUNDING} {more}") } else { format!("{TACTICS} {more}") };
+        if contains_rounding { [TACTICS, ROUNDING, more].join(" ") } else { [TACTICS, more].join(" ") };
     let import = format!("From LIBRARY Require Import {}.\n", names.trim_end());
     match contains_rounding {
         true => format!("From Flocq Require Import Core.\n{import}Open Scope R_scope.\n"),

@@ -205,16 +205,12 @@ impl<'a> SharedState<'a> {
     }
 
     fn dropped(&self) -> Vec<DroppedHypothesis> {
-        let hypotheses: Vec<_> = self
-            .statements
-            .iter()
-            .enumerate()
-            .flat_map(|(of, statement)| {
-                let all = statement.hypotheses().iter().enumerate();
-                // The minimum precision of two bits is part of the model of rounding.
-                all.filter(|(_, hypothesis)| **hypothesis != minimum_precision()).map(move |(i, _)| (of, i))
-            })
-            .collect();
+        let mut hypotheses = Vec::new();
+        for (of, statement) in self.statements.iter().enumerate() {
+            let all = statement.hypotheses().iter().enumerate();
+            // The minimum precision of two bits is part of the model of rounding.
+            hypotheses.extend(all.filter(|(_, h)| **h != minimum_precision()).map(|(i, _)| (of, i)));
+        }
         let dropped = hypotheses.into_par_iter().map(|(of, i)| DroppedHypothesis {
             equation: self.statements[of].equation(),
             name: self.statements[of].name(),

@@ -75,10 +75,9 @@ impl<'a> Search<'a> {
                 }
             });
         }
-        let pairs = divisors
-            .into_iter()
-            .flat_map(|divisor| divisor.symbols().into_iter().map(move |by| (divisor, by)));
-        pairs.into_iter().find_map(|(divisor, by)| {
+        let divisors = divisors.into_iter();
+        let mut pairs = divisors.flat_map(|of| of.symbols().into_iter().map(move |by| (of, by)));
+        pairs.find_map(|(divisor, by)| {
             let point = with_divisor_zero(divisor, by, point)?;
             point.satisfies(self.statement.hypotheses()).then(|| self.refute_at(&point))?
         })

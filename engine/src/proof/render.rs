@@ -40,9 +40,8 @@ impl<'a> ProofPrinter<'a> {
             return ProofPrinter::new(&registry).claim(statement);
         }
         let computed = statement.computed().iter();
-        let computed: Vec<_> = computed
-            .map(|computed| format!("{} = {}", computed.symbol, self.text(&computed.formula)))
-            .collect();
+        let computed = computed.map(|c| format!("{} = {}", c.symbol, self.text(&c.formula)));
+        let computed: Vec<_> = computed.collect();
         let Some(sequence) = statement.conclusion() else {
             let goals = statement.goals().iter().filter(|goal| goal.role == Role::Claim);
             let goals: Vec<_> = goals.map(|goal| self.format_proposition(&goal.proposition)).collect();
@@ -116,9 +115,7 @@ impl<'a> ProofPrinter<'a> {
             Sign(relation, of) => format!("{} {relation} 0", self.text(of)),
             Within(of, bound) => format!("{} ≤ {}", self.text(&of.abs()), self.text(bound)),
             Derivative(of, x, is) => format!("∂/∂{x} [{}] = {}", self.text(of), self.text(is)),
-            Limit(of, x, to) => {
-                format!("lim [{}] = {} for {x} → ∞", self.text(of), self.text(to))
-            }
+            Limit(of, x, to) => format!("lim [{}] = {} for {x} → ∞", self.text(of), self.text(to)),
         }
     }
 

@@ -133,8 +133,7 @@ pub(in crate::proof) fn prove_proposition(
     proposition: &Proposition,
     hypotheses: Vec<&Hypothesis>,
 ) -> Result<Node, ProofError> {
-    let trees: Vec<&Tree> =
-        hypotheses.iter().map(|hypothesis| &hypothesis.value).chain(proposition.trees()).collect();
+    let trees: Vec<&Tree> = hypotheses.iter().map(|h| &h.value).chain(proposition.trees()).collect();
     check::check_size(trees.iter().copied())?;
     let roundings = check::roundings(trees.into_iter());
     if roundings.len() > check::MAX_ROUNDINGS {

@@ -82,8 +82,7 @@ pub(super) fn divisors<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> {
 
 /// States that no divisor is 0.
 pub(super) fn none_is_zero(divisors: &[Tree], printer: Printer) -> String {
-    let all: Vec<_> =
-        divisors.iter().map(|divisor| format!("{} <> 0", printer.plain().expr(divisor))).collect();
+    let all: Vec<_> = divisors.iter().map(|of| format!("{} <> 0", printer.plain().expr(of))).collect();
     all.join(" /\\\n  ")
 }
 

@@ -120,13 +120,12 @@ impl Mutation {
     fn all(tree: &Tree, registry: &Registry) -> Vec<Mutation> {
         let mut all = Vec::new();
         match tree.op() {
-            Op::Symbol(_) | Op::Rounded(_) => {}
             Op::Int(n) => all.extend(n.checked_add(1).map(|next| Mutation::Integer(*n, next))),
             Op::Neg(_) => all.push(Mutation::DropSign),
             Op::Exp(_) => all.push(Mutation::NegateExponent),
             Op::PositivePart(_) => all.push(Mutation::DropPositivePart),
             Op::Min(..) => all.push(Mutation::Maximum),
-            Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..) => {}
+            _ => {}
         }
         if let Some((operator, ..)) = Operator::of(tree.op()) {
             all.extend(operator.opposite().map(|_| Mutation::Opposite(operator)));
@@ -186,9 +185,7 @@ impl fmt::Display for Mutation {
             }
             FirstOperand(operator) => write!(f, "{} → a", operator.between("a", "b")),
             SecondOperand(operator) => write!(f, "{} → b", operator.between("a", "b")),
-            Swap(operator) => {
-                write!(f, "{} → {}", operator.between("a", "b"), operator.between("b", "a"))
-            }
+            Swap(operator) => write!(f, "{} → {}", operator.between("a", "b"), operator.between("b", "a")),
             Maximum => f.write_str("min → max"),
             DropSign => f.write_str("−a → a"),
             NegateExponent => f.write_str("exp(a) → exp(−a)"),

@@ -103,27 +103,19 @@ impl Order<'_> {
     }
 }
 
-/// Explains a failed proof, with formulas formatted by `formula`, and the order of factors.
-pub(super) fn justify(
-    reason: &ProofError,
-    formula: &dyn Fn(&Tree) -> String,
-    factors: &[&'static str],
-) -> String {
+/// Explains a failed proof, with formulas formatted by `text`, and the order of factors.
+pub(super) fn justify(of: &ProofError, text: &dyn Fn(&Tree) -> String, factors: &[&'static str]) -> String {
     use ProofError::*;
     let ratio = |of: &Quantity| Order { context: &of.context, factors }.ratio_or_size(&of.value);
-    match reason {
+    match of {
         Premise(premise) => premise.to_string(),
-        PossibleZeroDivisor(of, value) if value.value.is_zero() => {
-            format!("the divisor {} is 0", formula(of))
-        }
+        PossibleZeroDivisor(of, value) if value.value.is_zero() => format!("the divisor {} is 0", text(of)),
         PossibleZeroDivisor(of, value) => {
             let is_as_written = value.symbols().into_iter().map(Symbol::name).eq(of.symbols());
             let reduced = if is_as_written { String::new() } else { format!(" = {}", ratio(value)) };
-            format!("the divisor {}{reduced} might be 0", formula(of))
+            format!("the divisor {}{reduced} might be 0", text(of))
         }
-        UndecidedBranch(value) => {
-            format!("the sign of {} is undecided", ratio(value))
-        }
+        UndecidedBranch(value) => format!("the sign of {} is undecided", ratio(value)),
         UnknownSign(value) => {
             let order = Order { context: &value.context, factors };
             format!("no rule finds the sign of {}{}", ratio(value), order.obstacles(&value.value))

@@ -65,8 +65,7 @@ impl<'a> Lines<'a> {
         let formulas = (0..).map_while(|i| Some((i, problem.table.formula(i).ok()?)));
         let named = formulas.filter(|(_, tree)| printer.registry.call_name(tree).is_some());
         let named = named.filter_map(|(i, tree)| {
-            let value =
-                reader.value(i).ok().filter(|value| value.den.is_empty() && value.num.terms().len() > 1)?;
+            let value = reader.value(i).ok().filter(|of| of.den.is_empty() && of.num.terms().len() > 1)?;
             Some((value.num, tree.clone()))
         });
         Lines { printer, problem, atoms: formulas_of_atoms(problem), named: named.collect() }
@@ -324,7 +323,7 @@ impl End<'_> {
                 Step::Size(..) => {}
                 Step::Sign { of, den, reason, .. } => {
                     let value = Quotient { num: of.clone(), den: den.clone() };
-                    lines.extend(self.step_of_sign(&value, reason, divisors > 0, &lines));
+                    lines.extend(self.sign_step(&value, reason, divisors > 0, &lines));
                     divisors = divisors.saturating_sub(1);
                 }
             }
@@ -333,21 +332,15 @@ impl End<'_> {
     }
 
     /// Returns the lines about the sign of a numerator, except earlier ones.
-    fn step_of_sign(
-        &self,
-        value: &Quotient,
-        reason: &Reason,
-        is_divisor: bool,
-        earlier: &[String],
-    ) -> Vec<String> {
-        let mut lines = self.sign("", &value.num, &value.den, reason);
-        let last = lines.pop().filter(|_| !value.num.is_zero());
-        let decision = self.decisions.iter().find(|(decides, _)| decides == value);
+    fn sign_step(&self, of: &Quotient, reason: &Reason, is_divisor: bool, earlier: &[String]) -> Vec<String> {
+        let mut lines = self.sign("", &of.num, &of.den, reason);
+        let last = lines.pop().filter(|_| !of.num.is_zero());
+        let decision = self.decisions.iter().find(|(decides, _)| decides == of);
         lines.extend(match (decision, last) {
             (Some((_, follows)), _) if earlier.iter().any(|line| line.starts_with(follows)) => None,
             (Some((_, follows)), Some(last)) if !is_divisor => Some(format!("{follows}, since {last}")),
             (Some((_, follows)), None) if !is_divisor => Some(follows.clone()),
-            (_, last) => last.filter(|_| !self.is_plain(&value.num)).map(|last| match is_divisor {
+            (_, last) => last.filter(|_| !self.is_plain(&of.num)).map(|last| match is_divisor {
                 true => format!("divisor {last}"),
                 false => last,
             }),

@@ -250,9 +250,9 @@ impl PivotChoice<'_> {
     /// Returns the symbol of unknown sign with the shortest coefficient.
     fn free_symbol(&self, variables: &[usize], has_errors: bool) -> Option<Monomial> {
         let solved_for = self.hypothesis.map(|hypothesis| Symbol::Own(hypothesis.solved_for));
-        let free = variables.iter().filter(|x| self.context.signs.get(**x).is_none());
-        let solvable =
-            free.filter(|x| !self.known.is_unit(**x) && self.solve_for(&Monomial::of(**x)).is_some());
+        let signs = &self.context.signs;
+        let free = variables.iter().filter(|x| signs.get(**x).is_none() && !self.known.is_unit(**x));
+        let solvable = free.filter(|x| solve_for(&Monomial::of(**x), self.equation, self.known).is_some());
         let first = solvable.min_by_key(|x| {
             let comes_later = has_errors && (solved_for.is_none() || self.context.symbol(**x) != solved_for);
             (comes_later, self.equation.coefficient(**x, 1).terms().len())
@@ -266,21 +266,17 @@ impl PivotChoice<'_> {
         let products = monomials.filter(|m| m.count() > 1 && !m.powers().any(|(x, _)| self.known.is_unit(x)));
         let first =
             products.min_by_key(|m| m.powers().filter(|(x, _)| self.context.signs.get(*x).is_some()).count());
-        first.filter(|m| self.solve_for(m).is_some()).cloned()
+        first.filter(|m| solve_for(m, self.equation, self.known).is_some()).cloned()
     }
 
     /// Returns the first symbol whose sign follows from that of its value.
     fn signed_symbol(&self, variables: &[usize]) -> Option<Monomial> {
         variables.iter().find_map(|x| {
             let pivot = Monomial::of(*x);
-            let by = self.context.reduce(&self.solve_for(&pivot)?);
+            let by = self.context.reduce(&solve_for(&pivot, self.equation, self.known)?);
             let sign = self.context.sign_under(by, &[], self.known)?.sign();
             sign.implies(self.context.signs.get(*x)?).then_some(pivot)
         })
-    }
-
-    fn solve_for(&self, pivot: &Monomial) -> Option<Ratio> {
-        solve_for(pivot, self.equation, self.known)
     }
 }
 

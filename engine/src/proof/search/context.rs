@@ -246,10 +246,8 @@ impl Context {
         if sizes.count() == MAX_SIZES {
             return false;
         }
-        let Some(symbols) = self.next_symbol(Symbol::Slack).zip(self.next_symbol(Symbol::IntervalParameter))
-        else {
-            return false;
-        };
+        let symbols = self.next_symbol(Symbol::Slack).zip(self.next_symbol(Symbol::IntervalParameter));
+        let Some(symbols) = symbols else { return false };
         let value = self.reduce(&(twice * Ratio::from(Poly::constant((1, 2)))));
         let known = self.signs.with(size, Sign::NonNegative);
         let product = Poly::variable(size) * Poly::variable(factor);

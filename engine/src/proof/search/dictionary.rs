@@ -79,10 +79,8 @@ impl Knowledge<'_> {
         if !of.has_exponentials() {
             return Some(of.clone());
         }
-        let exponents: Vec<_> =
-            state.exponents.iter().map(|(x, exponent)| (*x, self.ratio(exponent, state))).collect();
-        let reduced: Vec<_> =
-            exponents.iter().map(|(x, exponent)| (*x, self.context.reduce(exponent))).collect();
+        let exponents: Vec<_> = state.exponents.iter().map(|(x, e)| (*x, self.ratio(e, state))).collect();
+        let reduced: Vec<_> = exponents.iter().map(|(x, e)| (*x, self.context.reduce(e))).collect();
         let terms = of.terms().map(|(monomial, number)| {
             let mut rest = monomial.without_exponential();
             if let Some(exponent) = monomial.exponent() {

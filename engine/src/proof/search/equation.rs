@@ -147,8 +147,8 @@ impl Finder<'_, '_> {
     /// Adds eᵃ eᵇ = eᶜ for a + b = c, where eᶜ may be 1.
     fn add_products_of_exponentials(&mut self, equations: &mut Vec<Equation>, symbols: usize) {
         let state = self.state;
-        let exponents: Vec<_> =
-            state.exponents.iter().map(|(x, exponent)| (*x, self.guide.ratio(exponent, state))).collect();
+        let exponents = state.exponents.iter().map(|(x, e)| (*x, self.guide.ratio(e, state)));
+        let exponents: Vec<_> = exponents.collect();
         for (i, (x, a)) in exponents.iter().enumerate() {
             for (y, b) in &exponents[i..] {
                 let sum = a + b;

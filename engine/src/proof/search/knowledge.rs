@@ -50,15 +50,10 @@ impl<'a> Knowledge<'a> {
     }
 
     /// Adds the hypothesis with this number, that a symbol is between two values.
-    pub fn assume_interval(
-        &mut self,
-        i: usize,
-        x: &'static str,
-        [lower, upper]: [Ratio; 2],
-    ) -> Result<(), Refusal> {
+    pub fn assume_interval(&mut self, i: usize, x: &'static str, ends: [Ratio; 2]) -> Result<(), Refusal> {
         let table = &self.problem.table;
         let variables = [table.variable(Atom::Own(x))?, table.variable(Atom::IntervalParameter(i))?];
-        self.context.assume_interval(self.problem.hypotheses[i], variables, &lower, &upper);
+        self.context.assume_interval(self.problem.hypotheses[i], variables, &ends[0], &ends[1]);
         self.record(None);
         Ok(())
     }
