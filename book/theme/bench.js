@@ -212,11 +212,11 @@ const drawForces = (svg, { values, rows }, run, box) => {
     ...axes,
     line([0, 0], [span, 0], { class: "bench-faint" }),
     line([0, 0], [0, 1], { class: "bench-faint" }),
-    label(width - 2, y0 - 8, "p in metres", { class: "bench-tick bench-end" }), label(x0 + 8, 12, "N in newtons", { class: "bench-tick" }),
+    label(width - 2, y0 - 8, "p in metres", { class: "bench-tick bench-end" }), label(x0 + 8, 9, "N in newtons", { class: "bench-tick" }),
     line(held(gap), held(far), { class: "bench-spring" }),
     path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane bench-corner" }),
     // Labels stand clear of the falling line.
-    reaction < 0 ? label(x0 - 6, Math.min(y1 + 14, height - 24), force, { class: "bench-end" }) : label(x0 + 8, y1 - 5, force),
+    reaction < 0 ? label(x0 - 6, Math.min(y1 + 14, height - 24), force, { class: "bench-end" }) : label(x0 + 8, y1 - 4, force),
   ];
   const now = rows.at(-1);
   if (now) {
