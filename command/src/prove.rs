@@ -170,7 +170,7 @@ fn totals(out: &mut dyn Write, proofs: &Proofs) -> io::Result<()> {
     let needed = dropped.iter().filter(|dropped| matches!(dropped.outcome, DropOutcome::Refuted(_))).count();
     let fine = dropped.iter().filter(|dropped| dropped.is_precision_only()).count();
     writeln!(out, "{needed} of {hypotheses} hypotheses needed, {fine} only for a higher precision.")?;
-    let mutation::Summary { mutations, detected, equivalent, .. } = controls;
+    let mutation::MutationSummary { mutations, detected, equivalent, .. } = controls;
     let total = format!(
         "{} of {mutations} mutations of formulas detected: {detected} refuted, {equivalent} proved equivalent.",
         detected + equivalent

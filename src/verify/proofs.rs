@@ -92,7 +92,7 @@ pub struct ProofSummary {
     pub hypotheses: usize,
     /// Outcomes of the mutations.
     #[cfg_attr(feature = "serde", serde(flatten))]
-    pub controls: mutation::Summary,
+    pub controls: mutation::MutationSummary,
 }
 
 /// Proves the claims of some equations, or all claims without equations, and tests mutations and dropped

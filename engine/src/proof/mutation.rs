@@ -85,7 +85,7 @@ pub struct MutationReport {
 /// The number of mutants by outcome.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Summary {
+pub struct MutationSummary {
     /// The number of all mutants.
     pub mutations: usize,
     /// The number of mutants that a claim detects.
@@ -98,8 +98,8 @@ pub struct Summary {
 
 impl MutationReport {
     /// Counts the mutants by outcome.
-    pub fn summary(&self) -> Summary {
-        let mut summary = Summary { mutations: self.mutants.len(), ..Summary::default() };
+    pub fn summary(&self) -> MutationSummary {
+        let mut summary = MutationSummary { mutations: self.mutants.len(), ..MutationSummary::default() };
         for (_, outcome) in &self.mutants {
             match outcome {
                 MutationOutcome::Detected { .. } => summary.detected += 1,
@@ -301,7 +301,7 @@ mod tests {
             [Mutation::Swap(Operator::Sub)]
         );
         // Four mutations of −, three each of × and +.
-        let Summary { mutations, detected, equivalent, .. } =
+        let MutationSummary { mutations, detected, equivalent, .. } =
             test_mutations(&statements, &registry()).summary();
         assert_eq!([mutations, detected, equivalent], [10, 9, 1]);
         assert_eq!(find_detected_mutants(&statements, &registry()).summary().mutations, 9);

@@ -1,14 +1,14 @@
 //! Proofs as text for readers.
 
-mod algebra;
 mod lines;
 mod names;
 mod summary;
+mod text;
 
 pub use summary::proof_summary;
 
-use self::algebra::Order;
 use self::lines::Lines;
+use self::text::Order;
 use super::check::Proof;
 use super::check::{Leaf, Node, Problem};
 #[cfg(feature = "serde")]

@@ -68,9 +68,9 @@ fn the_tolerance_is_the_border() {
         let mut answer = right(problem);
         let number_of = if i == 0 { &mut answer.deflection } else { &mut answer.contact_force };
         *number_of = number_of.take().map(|x| x + number(factor) * number(TOLERANCE) * &scales[i]);
-        let judgement = assess(problem, answer, TOLERANCE);
-        assert_eq!(judgement.verdict, verdict, "{i}, {factor}");
-        assert_eq!(judgement.error(), Some(&(number(factor) * number(TOLERANCE)).abs()));
+        let assessment = assess(problem, answer, TOLERANCE);
+        assert_eq!(assessment.verdict, verdict, "{i}, {factor}");
+        assert_eq!(assessment.error(), Some(&(number(factor) * number(TOLERANCE)).abs()));
     }
 }
 
@@ -113,9 +113,9 @@ fn a_wrong_state_is_reported_if_it_matters() {
         assert!(scale > number("1"));
         let u = right(problem).deflection.unwrap() + number("1");
         let answer = Answer::new(u, number(parts) * number(TOLERANCE) * scale);
-        let judgement = assess(problem, answer, TOLERANCE);
-        assert_eq!(judgement.verdict, Verdict::Wrong);
-        judgement.finding.unwrap_or_default()
+        let assessment = assess(problem, answer, TOLERANCE);
+        assert_eq!(assessment.verdict, Verdict::Wrong);
+        assessment.finding.unwrap_or_default()
     };
     let in_contact = |parts| finding(Family::Contact, parts);
     for free in ["0.5", "1", "-1"].map(in_contact) {
@@ -141,12 +141,12 @@ fn right_with(problem: &Problem, factor: &str) -> Answer {
 fn the_penalty_that_was_used_is_the_one_that_counts() {
     let problem = with_penalties(problems(1, 1, &[Family::Contact])).remove(0);
     let answer = right_with(&problem, "1.0000005");
-    let judgement = |answer: Answer| assess(&problem, answer, TOLERANCE);
-    let judged = judgement(answer.clone());
+    let assessment = |answer: Answer| assess(&problem, answer, TOLERANCE);
+    let judged = assessment(answer.clone());
     assert_eq!((judged.verdict, judged.force_error), (Verdict::Right, Some(Exact::zero())));
     let [u, n] = [answer.deflection.as_ref().unwrap(), answer.contact_force.as_ref().unwrap()];
     assert_eq!(judged.kkt, Some(contact::kkt(&problem.system, u, n)));
-    assert_eq!(judgement(Answer { deflection: None, ..answer.clone() }).kkt, None);
+    assert_eq!(assessment(Answer { deflection: None, ..answer.clone() }).kkt, None);
 }
 
 /// Additional values of an answer are checked.
@@ -156,8 +156,8 @@ fn findings_describe_the_error() {
     let finding = |change: &dyn Fn(&mut Answer)| {
         let mut answer = right(problem);
         change(&mut answer);
-        let judgement = assess(problem, answer, TOLERANCE);
-        (judgement.verdict, judgement.finding.unwrap_or_default())
+        let assessment = assess(problem, answer, TOLERANCE);
+        (assessment.verdict, assessment.finding.unwrap_or_default())
     };
     let wrong = |change: &dyn Fn(&mut Answer), text: &str| {
         let (verdict, finding) = finding(change);
@@ -190,8 +190,8 @@ fn findings_describe_the_error() {
     let zero = |answer: &mut Answer| answer.used.system.c = Some(Some(Exact::zero()));
     let mut none = right(problem);
     zero(&mut none);
-    let judgement = assess(problem, none, "2");
-    assert_eq!(judgement.finding.as_deref(), Some("it used stiffness = 0 instead of 30"));
+    let assessment = assess(problem, none, "2");
+    assert_eq!(assessment.finding.as_deref(), Some("it used stiffness = 0 instead of 30"));
     let same = finding(&|answer| answer.used.system.c = Some(Some(system.c.clone())));
     assert_eq!(same, (Verdict::Right, String::new()));
 }
@@ -306,8 +306,8 @@ fn an_overflowing_mistake_explains_no_answer() {
     for (off, verdict) in [("1", Verdict::Right), ("1.1", Verdict::Wrong)] {
         let mut answer = right(&problem);
         answer.deflection = answer.deflection.map(|u| u * number(off));
-        let judgement = assess(&problem, answer, TOLERANCE);
-        assert_eq!(judgement.verdict, verdict);
+        let assessment = assess(&problem, answer, TOLERANCE);
+        assert_eq!(assessment.verdict, verdict);
     }
 }
 
@@ -321,9 +321,9 @@ fn the_allowed_rounding_error_is_stated() {
         Problem { system, penalty: Some(number("4.5e17")), ..problems(1, 1, &[Family::Far]).remove(0) };
     let mut answer = right(&problem);
     answer.contact_force = answer.contact_force.map(|n| n + number("1000"));
-    let judgement = assess(&problem, answer, TOLERANCE);
-    assert_eq!(judgement.verdict, Verdict::Wrong);
-    assert_eq!(judgement.finding.as_deref(), Some("within the rounding error of f64"));
+    let assessment = assess(&problem, answer, TOLERANCE);
+    assert_eq!(assessment.verdict, Verdict::Wrong);
+    assert_eq!(assessment.finding.as_deref(), Some("within the rounding error of f64"));
 }
 
 /// A family without answers is not known to be right.

@@ -7,7 +7,7 @@ mod identity;
 
 use self::identity::{placeholder, size};
 use super::ProofPrinter;
-use super::algebra::{number, sign_text, sum};
+use super::text::{number, sign_text, sum};
 use crate::formula::claim::PRECISION;
 use crate::formula::name_of_rounding;
 use crate::formula::statement::Proposition;

@@ -1,7 +1,7 @@
 //! Definitions of the names of the search in a message.
 
 use super::ProofPrinter;
-use super::algebra::{Order, justify};
+use super::text::{Order, justify};
 use crate::formula::claim::PRECISION;
 use crate::formula::name_of_rounding;
 use crate::formula::statement::Statement;
