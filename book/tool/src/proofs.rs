@@ -22,7 +22,7 @@ pub const SECTIONS: [(&str, &str); 7] = [
 ];
 
 /// Maximum number of lines of a proof that is not folded.
-const MAX_OPEN_LINES: usize = 40;
+const MAX_OPEN_LINES: usize = 20;
 
 /// Page in Markdown.
 #[derive(Clone, Debug, PartialEq, Eq)]
