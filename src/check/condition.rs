@@ -186,7 +186,7 @@ impl Threshold {
     }
 
     /// Returns the distance of the two values relative to the larger one.
-    fn gap(&self) -> Exact {
+    pub(super) fn gap(&self) -> Exact {
         let most = self.wrong.abs().max(self.right.abs());
         (&self.wrong - &self.right).abs() / most
     }

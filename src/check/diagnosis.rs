@@ -204,7 +204,7 @@ impl<'a> Search<'a> {
         )
     }
 
-    /// Returns the mistakes with a number k that explains all answers, and that three of them determine.
+    /// Returns the mistakes with a number k that explains all answers.
     fn numbers(&self, answers: &[&Observation]) -> Vec<Cause> {
         let mut wrong: Vec<_> = answers.iter().copied().filter(|answer| answer.is_wrong()).collect();
         wrong.sort_by(|a, b| b.error().cmp(&a.error()));
@@ -216,10 +216,7 @@ impl<'a> Search<'a> {
     fn number(&self, mistake: &Mistake, wrong: &[&Observation], answers: &[&Observation]) -> Option<Exact> {
         let samples = wrong.iter().step_by(wrong.len().div_ceil(SAMPLES).max(1));
         let mut numbers = samples.flat_map(|answer| estimates(mistake, answer)).filter(|k| !k.is_zero());
-        let k = numbers.find(|k| self.explains_all(mistake, Some(k), answers))?;
-        let agreeing =
-            wrong.iter().filter(|answer| estimates(mistake, answer).iter().any(|other| is_close(other, &k)));
-        (agreeing.take(INFORMATIVE).count() == INFORMATIVE).then_some(k)
+        numbers.find(|k| self.explains_all(mistake, Some(k), answers))
     }
 
     /// Returns the contact law without a corner that explains all answers.
@@ -281,11 +278,6 @@ pub(super) fn values(mistake: &Mistake, k: Option<&Exact>) -> Vec<[Option<Exact>
         mistake.results.of_state(touches).each_ref().map(|formula| value(formula, system, &constants))
     });
     values.collect()
-}
-
-/// Returns `true` if two numbers differ by at most a hundredth.
-fn is_close(a: &Exact, b: &Exact) -> bool {
-    (a - b).abs() * Exact::from(100) <= b.abs()
 }
 
 /// Returns the numbers k for which a mistake gives u or N of an answer.

@@ -199,7 +199,15 @@ fn a_state_or_a_parameter_separates_wrong_answers() {
     assert_eq!(names(&heavy), ["N is 1.01 times the right value"]);
     let found: Vec<_> = heavy.conditions.iter().filter_map(|found| found.threshold.as_ref()).collect();
     assert!(found.iter().any(|found| found.quantity == Quantity::Mass && !found.is_below()), "{found:?}");
-    // Every third answer, as no quantity tells.
+    // Some answers, as no quantity tells: a decision is named all the same.
+    let wrong =
+        |problem: &Problem| State::of(&problem.system) == Ok(State::Separated) && problem.id.ends_with('2');
+    let some = changed(|problem, u, n| {
+        let system = &problem.system;
+        if wrong(problem) { [system::gap(system), system::reaction(system)] } else { [u, n] }
+    });
+    assert!(some.conditions.is_empty(), "{:?}", some.conditions);
+    assert_eq!(names(&some), ["the plane always acts"]);
     let some = changed(|problem, u, n| [u, if problem.id.ends_with('3') { n + number("1") } else { n }]);
     assert!(some.conditions.is_empty() && some.diagnosis.is_empty(), "{:?}", some.diagnosis);
 }
@@ -216,6 +224,39 @@ fn few_systems_show_no_condition() {
     let counts = [(0, 9), (9, 9), (1, 7), (6, 7), (2, 5), (3, 5), (4, 12)];
     let ways = counts.map(|(chosen, of)| condition::combinations(chosen, of));
     assert_eq!(ways, [1, 1, 7, 7, 10, 10, 495]);
+}
+
+/// Three wrong answers of many are separated from the others by the mass, and two are not.
+#[test]
+fn two_wrong_answers_of_many_show_no_condition() {
+    let all = problems(1, 20, Family::ALL);
+    let mut masses: Vec<_> = all.iter().map(|problem| problem.system.m.clone()).collect();
+    masses.sort();
+    let conditions = |count: usize| {
+        let least = &masses[masses.len() - count];
+        let report = run(&all, |problem| {
+            let exact = problem.solution();
+            let off = if problem.system.m >= *least { exact.deflection.clone() } else { Exact::zero() };
+            Answer::new(exact.deflection + off, exact.contact_force)
+        });
+        report.conditions
+    };
+    assert!(conditions(2).is_empty());
+    let found = conditions(3);
+    assert!(
+        found.iter().any(|found| found.threshold.as_ref().unwrap().quantity == Quantity::Mass),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn the_gap_of_a_condition_is_relative_to_its_larger_value() {
+    let gap = |wrong: &str, right: &str| {
+        let [wrong, right] = [wrong, right].map(number);
+        Threshold { quantity: Quantity::Mass, wrong, right }.gap()
+    };
+    let gaps = [gap("1", "4"), gap("4", "1"), gap("-4", "-1"), gap("-1", "4"), gap("2", "4")];
+    assert_eq!(gaps, ["3/4", "3/4", "3/4", "5/4", "1/2"].map(number));
 }
 
 /// Answers by c and m alone, and the state of the request before.
@@ -247,8 +288,45 @@ fn what_is_carried_over_is_noticed() {
     });
     assert_eq!((again.changed.len(), again.summary().wrong), (again.repeated, 0));
     assert!(!again.holds() && again.repeated > 5);
+    let asked = RefCell::new(HashSet::new());
+    let silent = run(&default_problems(), |problem| {
+        let is_first = asked.borrow_mut().insert(problem.id.clone());
+        if is_first { right(problem) } else { Answer { contact_force: None, ..right(problem) } }
+    });
+    assert_eq!(silent.changed.len(), silent.repeated);
     let rights = run(&default_problems(), right);
     assert!(rights.holds() && rights.changed.is_empty() && rights.repeated == again.repeated);
+}
+
+/// Three answers show that a base is answered for its neighbours, two do not.
+#[test]
+fn three_answers_are_carried_over() {
+    let all = problems(1, 20, &[Family::Contact, Family::Neighbour]);
+    let carried_over = |last: &str| {
+        let report = run(&all, |problem| match problem.id.as_str() {
+            "neighbour-1" | "neighbour-2" => right(&all[0]),
+            id if id == last => right(&all[0]),
+            "neighbour-3" => Answer::new(number("0.7"), number("0.3")),
+            _ => right(problem),
+        });
+        assert_eq!(report.summary().wrong, 3);
+        report.carried_over.len()
+    };
+    assert_eq!([carried_over("neighbour-3"), carried_over("none")], [3, 0]);
+}
+
+/// The constant of a contact law is known from three answers to which it makes a clear difference.
+#[test]
+fn a_slight_corner_is_not_named() {
+    let named = |share: &str| {
+        let report = run(&problems(1, 5, &[Family::Grazing]), |problem| {
+            let system = &problem.system;
+            let force = system::weight(system) * number(share);
+            Answer::new((system::weight(system) - &force) / &system.c, force)
+        });
+        names(&report).join("; ")
+    };
+    assert_eq!(named("1e-4"), "");
 }
 
 /// Penetrations up to a micrometre, forces up to a millinewton, and an equilibrium to a millinewton.
