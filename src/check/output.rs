@@ -51,10 +51,7 @@ impl<'a> Output<'a> {
     fn has(&self, deviation: &Deviation) -> bool {
         self.numbers.iter().all(|(answer, number)| {
             let (expected, unit, factor) = deviation.expected(self.exact(answer), number);
-            let tolerance = match deviation {
-                Deviation::Decimals(_) | Deviation::Digits(_) => Exact::zero(),
-                _ => self.fit * self.scale(answer),
-            };
+            let tolerance = self.fit * self.scale(answer);
             let rounding = factor * tolerance.max(answer.rounding(self.index).clone());
             (*number - expected).abs() <= unit + rounding.max(number.abs() * Exact::power_of_two(-52))
         })

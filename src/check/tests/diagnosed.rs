@@ -94,7 +94,7 @@ fn with_lengths(problem: &Problem, change: impl Fn(&Exact) -> Exact) -> [Exact; 
 
 #[test]
 fn each_kind_of_mistake_has_its_name() {
-    let table: [(&str, Change); 16] = [
+    let table: [(&str, Change); 17] = [
         ("u is 1000 times the right value", |_, u, n| [u * number("1000"), n]),
         ("N is 0.001 times the right value", |_, u, n| [u, n * number("0.001")]),
         ("u and N are 1.5 times the right value", |_, u, n| [u * number("1.5"), n * number("1.5")]),
@@ -105,6 +105,9 @@ fn each_kind_of_mistake_has_its_name() {
         ("u is 0.5 m too small, and N is 2 N too large", |_, u, n| [u - number("0.5"), n + number("2")]),
         ("u and N have at most 4 digits", |_, u, n| [rounded(&u, 4), rounded(&n, 4)]),
         ("N has at most 3 digits", |_, u, n| [u, rounded(&n, 3)]),
+        ("u has at most 6 decimals, and N has at most 4 digits", |_, u, n| {
+            [format!("{u:.6}").parse().unwrap(), rounded(&n, 4)]
+        }),
         ("u and N have at most 6 decimals", |_, u, n| {
             [u, n].map(|x| number(&format!("{:.6}", x.to_f64().unwrap())))
         }),
@@ -221,9 +224,9 @@ fn few_systems_show_no_condition() {
         _ => right(problem),
     });
     assert!(report.summary().wrong == 3 && report.conditions.is_empty(), "{:?}", report.conditions);
-    let counts = [(0, 9), (9, 9), (1, 7), (6, 7), (2, 5), (3, 5), (4, 12)];
+    let counts = [(0, 9), (9, 9), (1, 7), (6, 7), (2, 5), (3, 5), (4, 12), (6, 116), (110, 116)];
     let ways = counts.map(|(chosen, of)| condition::combinations(chosen, of));
-    assert_eq!(ways, [1, 1, 7, 7, 10, 10, 495]);
+    assert_eq!(ways, [1, 1, 7, 7, 10, 10, 495, 48000, 48000]);
 }
 
 /// Three wrong answers of many are separated from the others by the mass, and two are not.
@@ -327,6 +330,29 @@ fn a_slight_corner_is_not_named() {
         names(&report).join("; ")
     };
     assert_eq!(named("1e-4"), "");
+}
+
+/// A sum, or a factor, is named if several answers determine it to a hundredth.
+#[test]
+fn slight_sums_and_factors_are_not_named() {
+    let named = |part: &str, change: &dyn Fn(Exact, Exact) -> [Exact; 2]| {
+        // The scales are below 0.2 m and 20 N, and the forces are 100 N, 200 N and 300 N times the part.
+        let all = [1, 2, 3].map(|i| {
+            let height = number("1.1") - Exact::from(i) * number(part);
+            problem(&format!("{i}"), Family::Contact, ["100", "1", "10", "1", &height.to_string()])
+        });
+        let report = run(&all, |problem| {
+            let exact = problem.solution();
+            let [u, n] = change(exact.deflection, exact.contact_force);
+            Answer::new(u, n)
+        });
+        assert_eq!(report.summary().wrong, 3);
+        names(&report).join("; ")
+    };
+    let sum = |off: &'static str| named("0.02", &move |u, n| [u + number(off), n]);
+    assert_eq!([sum("2.0000000000123e-6"), sum("1.0000000000123e-4")], ["", "u is 0.0001 m too large"]);
+    let factor = |part: &str| named(part, &|u, n| [u, n * number("1.5000000000000123")]);
+    assert_eq!([factor("1e-5"), factor("1e-3")], ["", "N is 1.5 times the right value"]);
 }
 
 /// Penetrations up to a micrometre, forces up to a millinewton, and an equilibrium to a millinewton.
