@@ -96,8 +96,6 @@ pub(super) struct Mistake {
     pub results: Results,
     /// Number of augmentations, if k is their penalty.
     pub augmentations: Option<i32>,
-    /// Whether it concerns one use of a result.
-    is_partial: bool,
     /// Whether it concerns the value of a parameter.
     pub is_parameter: bool,
     /// Whether it is right except for its decision between the two states.
@@ -112,7 +110,6 @@ impl Mistake {
             program,
             results,
             augmentations: None,
-            is_partial: false,
             is_parameter: false,
             is_decision: false,
         }
@@ -178,28 +175,34 @@ impl Program {
         self.steps.iter().position(|step| step.role == Role::Condition)
     }
 
-    /// Returns the results as functions of the parameters.
-    pub fn results(&self) -> Results {
+    /// Returns the program without intermediate results.
+    fn inlined(&self) -> Self {
         let mut known: Vec<(&str, Tree)> = Vec::new();
-        for step in self.of(Role::Intermediate) {
-            known.push((step.name, step.value.substitute(&known)));
-        }
-        match self.condition() {
-            None => {
-                let both = self.results_of(Role::Always, &known);
-                Results { condition: None, contact: both.clone(), separated: both }
+        let mut steps = Vec::new();
+        for step in &self.steps {
+            let value = step.value.substitute(&known);
+            match step.role {
+                Role::Intermediate => known.push((step.name, value)),
+                _ => steps.push(Step { value, ..step.clone() }),
             }
-            Some(i) => Results {
-                condition: Some(self.steps[i].value.substitute(&known)),
-                contact: self.results_of(Role::InContact, &known),
-                separated: self.results_of(Role::Apart, &known),
-            },
         }
+        Program { steps, returned: self.returned.clone() }
     }
 
-    /// Returns the returned u and N, given the intermediate results.
-    fn results_of(&self, role: Role, known: &[(&str, Tree)]) -> Formulas {
-        let mut known = known.to_vec();
+    /// Returns the results as functions of the parameters.
+    pub fn results(&self) -> Results {
+        let inlined = self.inlined();
+        let condition = inlined.condition().map(|i| inlined.steps[i].value.clone());
+        let [contact, apart] = match condition {
+            None => [Role::Always, Role::Always],
+            Some(_) => [Role::InContact, Role::Apart],
+        };
+        Results { condition, contact: inlined.results_of(contact), separated: inlined.results_of(apart) }
+    }
+
+    /// Returns the returned u and N of a program without intermediate results.
+    fn results_of(&self, role: Role) -> Formulas {
+        let mut known: Vec<(&str, Tree)> = Vec::new();
         for step in self.of(role) {
             known.push((step.name, step.value.substitute(&known)));
         }
@@ -244,38 +247,18 @@ impl Program {
         changed
     }
 
-    /// Returns the programs with one operation changed: where it is, or only in one use of its result.
+    /// Returns the programs with one operation changed.
     fn with_one_operation(&self) -> Vec<Mistake> {
         let mut all = Vec::new();
         let mut known = SpringMass::SYMBOLS.into_array().to_vec();
         for (i, step) in self.steps.iter().enumerate() {
-            for new in changes(&step.value, &known) {
-                if new == step.value {
-                    continue;
-                }
-                let edit = step.edit(&new);
-                all.push(Mistake::new(edit.clone(), self.with(i, new.clone())));
-                let users = self.users(i);
-                for j in if users.len() > 1 { users } else { Vec::new() } {
-                    let user = &self.steps[j];
-                    let place = if user.role == Role::Condition { "the condition" } else { user.name };
-                    let name = format!("{edit}, in {}{place} alone", user.role.state());
-                    let used = self.with(j, user.value.substitute(&[(step.name, new.clone())]));
-                    all.push(Mistake { is_partial: true, ..Mistake::new(name, used) });
-                }
-            }
+            let new = changes(&step.value, &known).into_iter().filter(|new| *new != step.value);
+            all.extend(new.map(|new| Mistake::new(step.edit(&new), self.with(i, new))));
             if step.role == Role::Intermediate {
                 known.push(step.name);
             }
         }
         all
-    }
-
-    /// Returns the indices of the steps that use an intermediate result.
-    fn users(&self, i: usize) -> Vec<usize> {
-        let Step { name, role, .. } = &self.steps[i];
-        let later = (i + 1..self.steps.len()).filter(|_| *role == Role::Intermediate);
-        later.filter(|j| self.steps[*j].value.symbols().contains(name)).collect()
     }
 
     /// Returns the programs that use another value for a parameter.
@@ -445,10 +428,10 @@ pub(super) fn reference(by_penalty: bool) -> Program {
 /// result.
 pub(super) fn edits(by_penalty: bool) -> Vec<Mistake> {
     let programs = references(by_penalty);
-    let mut edited: Vec<_> = programs.iter().flat_map(|program| program.edited(by_penalty)).collect();
-    edited.sort_by_key(|mistake| mistake.is_partial);
     let rigid = by_penalty.then(|| Mistake::new("ε is not used: the plane is rigid", reference(false)));
-    undecided(by_penalty).into_iter().chain(rigid).chain(edited).collect()
+    let edited = programs.iter().flat_map(|program| program.edited(by_penalty));
+    let of_one_use = programs.iter().flat_map(|program| program.inlined().with_one_operation());
+    undecided(by_penalty).into_iter().chain(rigid).chain(edited).chain(of_one_use).collect()
 }
 
 /// Returns the mistakes that a program may make in some answers only: in its decision or its output.
