@@ -6,7 +6,7 @@ const FIELDS = {
   m: { sign: "m", name: "mass", unit: "kg", from: -3, to: 3, powers: true },
   g: { sign: "g", name: "gravity", unit: "m/s²", from: -20, to: 20 },
   l: { sign: "l", name: "free length", unit: "m", from: 0, to: 5 },
-  H: { sign: "H", name: "support height", unit: "m", from: 0, to: 5 },
+  H: { sign: "H", name: "height of the support", unit: "m", from: 0, to: 5 },
   lambda: { sign: "λ₀", name: "initial multiplier", unit: "N", from: -50, to: 50 },
 };
 // Conversion between the position of a slider and a number with few digits.
