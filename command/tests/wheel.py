@@ -2,7 +2,10 @@
 
 import doctest
 import pathlib
+import shutil
+import signal
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from decimal import Decimal
 from fractions import Fraction
 from importlib import metadata, resources
@@ -58,6 +61,32 @@ def main(version):
         assert stalled["outcome"] == "stagnated", stalled
     refused(solver.solve, "the command has ended")
     solver.close()
+    # An answer that nobody waited for is not that of the next system.
+    slow = dict(method="augmented", scalar="mpfr:1000000", penalty=1, tolerance="1e-100000", max_augmentations=10**6)
+    if hasattr(signal, "setitimer"):
+        signal.signal(signal.SIGALRM, signal.default_int_handler)
+        with Solver() as solver:
+            signal.setitimer(signal.ITIMER_REAL, 0.2)
+            try:
+                solver.solve(**slow)
+            except KeyboardInterrupt:
+                pass
+            else:
+                raise AssertionError("not interrupted")
+            refused(solver.solve, "the command has ended")
+    # Threads take turns.
+    with Solver() as solver, ThreadPoolExecutor(8) as pool:
+        assert list(pool.map(lambda n: solver.solve(id=n)["id"], range(2000))) == list(range(2000))
+    # Without an answer for each system there is none; Python refuses the words that it is called with.
+    for call in (lambda: solve_all([{}], {"height": 1}), lambda: Solver({"height": 1})):
+        try:
+            call()
+        except TypeError as error:
+            assert "command {'height': 1}: must be the path" in str(error), error
+        else:
+            raise AssertionError("not refused")
+    for silent in filter(None, map(shutil.which, ("true", "false"))):
+        refused(lambda: solve_all([{}, {}], silent), "and 0 of 2 answers")
     # It is not the command that fails.
     refused(lambda: Solver(command=sys.executable).solve(), "solve")
 

@@ -1,7 +1,12 @@
 """Solutions of systems by the command `contact` of this wheel: a thin layer over `contact solve --batch`.
 
-A system is a mapping whose keys are the long options of `contact solve` with underscores, and an answer has the keys of
-`contact solve --format json`. Numbers of an answer are strings, which keep all digits:
+A system is a mapping whose keys are the long options of `contact solve` with underscores; what is not in it has the
+default that `contact help solve` prints, and `id` may be anything:
+
+    id, stiffness, mass, gravity, free_length, height, method, penalty, tolerance, max_augmentations,
+    initial_multiplier, bilateral, scalar
+
+An answer has the keys of `contact solve --format json`. Numbers of an answer are strings, which keep all digits:
 
     >>> [answer["contact_force"] for answer in solve_all([{"height": "1.05"}, {"height": 1.2}], scalar="exact")]
     ['481/100', '0']
@@ -10,6 +15,8 @@ A system is a mapping whose keys are the long options of `contact solve` with un
     '481/100010000'
 
 Decimals as strings are read exactly; a float of Python is written as the shortest decimal that is the same float.
+`state` is contact, grazing or separated. A solve that does not converge has an answer, too: `outcome` is direct or
+converged if all is well, or else stagnated or iteration_limit.
 """
 
 import json
@@ -17,6 +24,7 @@ import os
 import shutil
 import subprocess
 import sysconfig
+import threading
 from typing import Any, Dict, Iterable, List, Mapping, Optional
 
 __all__ = ["ContactError", "Solver", "find_contact", "solve_all"]
@@ -45,6 +53,12 @@ def find_contact() -> str:
     return found
 
 
+def _batch(command: Optional[str]) -> List[str]:
+    if not isinstance(command, (str, os.PathLike, type(None))):
+        raise TypeError(f"command {command!r}: must be the path of a program; options are keywords")
+    return [os.fspath(command or find_contact()), "solve", "--batch"]
+
+
 def _refused(message: str, index: Optional[int]) -> ContactError:
     error = ContactError(message)
     error.index = index
@@ -70,43 +84,56 @@ def solve_all(systems: Iterable[System], command: Optional[str] = None, **defaul
     """Solves many systems on all cores, and returns their answers in the same order.
 
     The keywords are options of all systems that do not contain them. Raises `ContactError` with the command's message
-    for the first system that is refused.
+    for the first system that is refused. `command` is the path of another `contact` than that of the wheel.
     """
+    arguments = _batch(command)
     lines = []
     for index, system in enumerate(systems):
         if not isinstance(system, Mapping):
             raise TypeError(f"systems[{index}] {system!r}: must be a mapping of options")
         lines.append(_line({**defaults, **system}, index))
-    arguments = [command or find_contact(), "solve", "--batch"]
     done = subprocess.run(arguments, input="".join(lines), stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
     # The status is 1 if a line is an error or did not converge: each answer says so itself.
-    if done.returncode not in (0, 1):
-        raise ContactError(done.stderr.strip())
-    return [_answer(line, index) for index, line in enumerate(done.stdout.splitlines())]
+    answers = done.stdout.splitlines()
+    if done.returncode not in (0, 1) or len(answers) != len(lines):
+        ended = f"the command has ended with status {done.returncode} and {len(answers)} of {len(lines)} answers"
+        raise ContactError(done.stderr.strip() or ended)
+    return [_answer(line, index) for index, line in enumerate(answers)]
 
 
 class Solver:
     """Solver of one system after the other in one process, so that the next may depend on the last answer.
 
-    The keywords are options of all systems that do not contain them. A solver is closed by `close` or `with`.
+    The keywords are options of all systems that do not contain them, and `command` is the path of another `contact`
+    than that of the wheel. A solver is closed by `close` or `with`. Threads may share it, and take turns.
     """
 
     def __init__(self, command: Optional[str] = None, **defaults: Number) -> None:
         self._defaults = defaults
+        self._turn = threading.Lock()
         self._process = subprocess.Popen(
-            [command or find_contact(), "solve", "--batch"],
+            _batch(command),
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8",
         )
 
     def solve(self, **system: Number) -> Answer:
-        """Returns the answer for one system; raises `ContactError` with the command's message if it is refused."""
+        """Returns the answer for one system, whose options are keywords: a mapping is passed as `**system`.
+
+        Raises `ContactError` with the command's message if it is refused. If an exception such as `KeyboardInterrupt`
+        interrupts the wait for an answer, the solver ends: the next call would return this answer.
+        """
         line = _line({**self._defaults, **system})
-        try:
-            self._process.stdin.write(line)
-            self._process.stdin.flush()
-            said = self._process.stdout.readline()
-        except (BrokenPipeError, ValueError):  # the command has ended, or `close` has been called
-            said = ""
+        with self._turn:
+            try:
+                self._process.stdin.write(line)
+                self._process.stdin.flush()
+                said = self._process.stdout.readline()
+            except (BrokenPipeError, ValueError):  # the command has ended, or `close` has been called
+                said = ""
+            except BaseException:
+                self._process.kill()
+                self.close()
+                raise
         if not said:
             raise ContactError("the command has ended" if self._process.stdin.closed else self._last_words())
         return _answer(said)
