@@ -24,9 +24,10 @@ Examples:
 Every recommendation has been confirmed by a run, from which k, the exact
 penetration p and the error of the force m g − c u are taken. Every penalty in
 the range guarantees the tolerance, and none that is smaller by more than a
-hundredth does; the error of the force is then c T plus rounding. Up to the larger bound, rounding changes the
-method's own force (N = ε p, or the multiplier) by at most c T, unless it does
-so for every sufficient penalty: then the larger bound is the recommendation.
+hundredth does; the error of the force is then at most c T plus rounding. In
+JSON the error of the force is relative. Up to the larger bound, rounding
+changes the method's own force (N = ε p, or the multiplier) by at most c T; if
+no sufficient penalty has that, the larger bound is the recommendation.
 
 Exit status: 0 a method meets the tolerance; 1 none does; 2 bad input.";
 
@@ -172,7 +173,10 @@ impl<T: Scalar + ExactText> Report<'_, T> {
         words.extend(system.options());
         words.extend(["--method".to_string(), MethodName::of(method).name()]);
         if let Some(penalty) = method.penalty() {
-            words.extend(["--penalty".to_string(), format_exact(&exact(penalty))]);
+            // The shortest decimal that rounds to the penalty is sometimes hundreds of digits shorter.
+            let texts = [format_exact(&exact(penalty)), penalty.text()];
+            words.push("--penalty".to_string());
+            words.extend(texts.into_iter().min_by_key(String::len));
         }
         if let Method::Augmented { .. } = method {
             words.extend(["--tolerance".to_string(), tolerance.text.clone()]);

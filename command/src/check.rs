@@ -27,9 +27,9 @@ receives the next one:
 All quantities are in SI units. The deflection is measured downwards from the
 undeformed spring; height is that of the support above the plane, which pushes
 with the contact force or not at all. A negative gravity acts upwards. The error
-of u is relative to |H - l| + |m g/c|, that of N to |m g| + |c (H - l)|. The page
-`Check your own solver` of the book (book/src/check.md) lists the optional keys
-of an answer and the mistakes that are diagnosed.
+of u is relative to |H - l| + |m g/c|, that of N to |m g| + |c (H - l)|. The
+page `Check your own solver` of the book (book/src/check.md) lists the optional
+keys of an answer, the families and the mistakes that are diagnosed.
 
 Exit status: 0 if no answer is wrong and each family has one that is right or
 within the tolerance; 1 otherwise; 2 for bad input. A refusal,

@@ -303,7 +303,10 @@ fn augmentation_note<T: ExactText>(system: &SpringMass<T>, penalties: &[T], eta:
     if first != last {
         stops += &format!(", {stop}");
     }
-    Some(format!("An augmentation stops at a penetration of about η (|H| + |Δ| + R/ε): {stops}."))
+    Some(format!(
+        "An augmentation stops at a penetration of about η (|H| + |H − l| + R/ε), with the largest relative \
+         rounding error η: {stops}."
+    ))
 }
 
 fn log10(x: &Exact) -> Option<f64> {

@@ -20,8 +20,9 @@ if it holds in every decided case, of which there is at least one. Rationals are
 compared by equality, floats within the error bounds that balls compute with
 them: there are no tolerances.
 
-A claim without a decided case is undecided, which is not a failure; few cases
-or a low precision can be the reason.
+A case is undecidable if the error bound of a float exceeds the quantity in
+question. A claim without a decided case is undecided, which is not a failure;
+few cases or a low precision can be the reason.
 
 Exit status: 0 no claim fails; 1 some do; 2 bad input.";
 

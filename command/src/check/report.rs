@@ -66,6 +66,7 @@ fn findings(out: &mut dyn Write, report: &Report, tolerance: &Number) -> io::Res
         (lag.map(lagging), lag),
         (diagnosed(report), report.fitting().next()),
         (conditions(report), None),
+        (unexplained(report), None),
         (report.holds().then(|| tested(report, tolerance)), None),
     ] {
         let Some(finding) = finding else { continue };
@@ -195,6 +196,19 @@ fn conditions(report: &Report) -> Option<String> {
     };
     let others = if clauses.len() > 1 { " More cases may tell which of these matters." } else { "" };
     Some(format!("The {} wrong answers are to {of}.{others}", report.summary().wrong))
+}
+
+/// Says that wrong answers are explained by nothing, so that nobody waits for a diagnosis.
+fn unexplained(report: &Report) -> Option<String> {
+    let is_wrong = |result: &CaseResult| {
+        result.assessment.verdict == Verdict::Wrong && matches!(result.reply, Reply::Answered(_))
+    };
+    let explained = report.fitting().next().is_some()
+        || report.lag().is_some()
+        || !(report.conditions.is_empty() && report.changed.is_empty() && report.carried_over.is_empty())
+        || report.absolute_bounds.iter().any(Option::is_some);
+    (report.results.iter().any(is_wrong) && !explained)
+        .then(|| "No single mistake that is searched for explains the wrong answers.".to_string())
 }
 
 /// Formats a threshold: `|R|/c up to 9.9e-7 m (right from 1.3e-6 m on)`.

@@ -85,6 +85,23 @@ fn a_mistake_is_printed_with_its_program() {
     assert!(said.contains(text) && said.contains(", then u = 1 m, N = 2 N."), "{said}");
 }
 
+/// Two mistakes at once, which are not searched for: 2 m g c instead of m g / c.
+#[test]
+fn what_nothing_explains_is_said() {
+    let text = "No single mistake that is searched for explains the wrong answers.";
+    let twice = report(&all(), |Problem { system, .. }| {
+        let weight = &system.m * &system.g;
+        let u = (&weight * &system.c * number("2")).min(&system.h - &system.l);
+        let force = (weight - &system.c * &u).max(number("0"));
+        Answer::new(u, force)
+    });
+    assert!(twice.summary().wrong > 0 && said(&twice).ends_with(text), "{}", said(&twice));
+    assert!(!said(&report(&all(), right)).contains(text));
+    let invalid =
+        check(&all(), &number("1e-6"), |_| Ok::<_, Infallible>(Reply::InvalidResponse("no key".into())));
+    assert!(!said(&invalid.expect("no failure")).contains(text), "the example says what is wrong");
+}
+
 /// (1.16), with the force of the previous step.
 #[test]
 fn lagging_steps_are_reported() {
