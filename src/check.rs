@@ -263,9 +263,9 @@ impl CaseResult {
         CaseResult { number, problem: problem.clone(), reply, assessment }
     }
 
-    /// Returns `true` if the solver did not reply.
+    /// Returns `true` if the solver did not answer.
     fn is_silent(&self) -> bool {
-        matches!(self.reply, Reply::Crashed(_) | Reply::TimedOut(_))
+        matches!(self.reply, Reply::InvalidResponse(_) | Reply::Crashed(_) | Reply::TimedOut(_))
     }
 
     /// Returns `true` if another reply to the same problem is no answer, or one that differs by more than the

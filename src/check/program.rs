@@ -392,30 +392,16 @@ fn references(by_penalty: bool) -> Vec<Program> {
     }
     let trial = structure::deflection(system);
     let predicted = [("u₀", trial.clone()), ("p", contact::penetration(system, &trial))];
+    let (touching, admissible) = (lagrange::deflection(system), contact::deflection(system));
+    let (multiplier, force) = (lagrange::multiplier(system), augmented::contact_force(system, &u));
+    let at_plane = [touching.clone(), structure::spring_force(system, &p)];
     vec![
-        Program::with_branches(
-            &both,
-            condition.clone(),
-            [lagrange::deflection(system), lagrange::multiplier(system)],
-            apart.clone(),
-        ),
-        Program::without_branches(&both, [contact::deflection(system), contact::contact_force(system)]),
-        Program::with_branches(
-            &both,
-            condition,
-            [lagrange::deflection(system), augmented::contact_force(system, &u)],
-            apart.clone(),
-        ),
-        Program::with_branches(
-            &predicted,
-            p.clone(),
-            [lagrange::deflection(system), structure::spring_force(system, &p)],
-            apart,
-        ),
-        Program::without_branches(
-            &[gap],
-            [contact::deflection(system), augmented::contact_force(system, &u)],
-        ),
+        Program::with_branches(&both, condition.clone(), [touching.clone(), multiplier], apart.clone()),
+        Program::without_branches(&both, [admissible.clone(), contact::contact_force(system)]),
+        Program::with_branches(&both, condition, [touching, force.clone()], apart.clone()),
+        Program::with_branches(&predicted, p, at_plane, apart),
+        Program::without_branches(&both[..1], [admissible.clone(), force.clone()]),
+        Program::without_branches(&both[..1], [admissible, force.positive_part()]),
     ]
 }
 

@@ -67,7 +67,12 @@ fn if_positive(decides: Exact, [u, n]: [Exact; 2], system: &SpringMass<Exact>) -
 /// Edits of each kind, written by hand: in all uses, in one use, in one state, in the decision, and of parameters.
 #[test]
 fn edits_have_their_names() {
-    let edits: [(&str, Edit); 9] = [
+    let edits: [(&str, Edit); 10] = [
+        ("u = min(g / c, gap) instead of min(m g / c, gap)", |s| {
+            let u = (&s.g / &s.c).min(system::gap(s));
+            let force = system::weight(s) - structure::spring_force(s, &u);
+            [u, force.positive_part()]
+        }),
         ("R = m g + c gap instead of m g − c gap", |s| {
             let reaction = system::weight(s) + &s.c * system::gap(s);
             if_positive(reaction.clone(), [system::gap(s), reaction], s)

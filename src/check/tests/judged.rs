@@ -265,23 +265,26 @@ fn every_reply_is_counted() {
 fn a_program_that_never_answers_is_not_restarted() {
     let all = default_problems();
     let mut asked = 0;
-    let mut silent = |answers_at: usize| {
+    let mut silent = |answers_at: usize, other: Reply| {
         asked = 0;
         let report = check(&all, &number(TOLERANCE), |problem| {
             asked += 1;
             let answered = || Reply::Answered(Box::new(right(problem)));
-            Ok::<_, Infallible>(if asked == answers_at {
-                answered()
-            } else {
-                Reply::TimedOut("nothing".into())
-            })
+            Ok::<_, Infallible>(if asked == answers_at { answered() } else { other.clone() })
         });
         let report = report.unwrap();
         (report.given_up, report.results.len())
     };
-    assert_eq!(silent(usize::MAX), (true, 3));
-    assert_eq!(silent(3), (false, all.len()));
-    assert_eq!(silent(4), (true, 3));
+    for other in [
+        Reply::TimedOut("nothing".into()),
+        Reply::Crashed("signal".into()),
+        Reply::InvalidResponse("another id".into()),
+    ] {
+        assert_eq!(silent(usize::MAX, other.clone()), (true, 3));
+        assert_eq!(silent(3, other.clone()), (false, all.len()));
+        assert_eq!(silent(4, other), (true, 3));
+    }
+    assert_eq!(silent(usize::MAX, Reply::Refused("no".into())), (false, all.len()));
     let three = check(&all[..3], &number(TOLERANCE), |_| Ok::<_, Infallible>(Reply::Crashed("so".into())));
     assert!(!three.unwrap().given_up, "there was nothing more to ask");
 }
