@@ -57,8 +57,8 @@ impl<T: Scalar> Interval<T> {
 /// Numbers for [`solve`](super::solve): f32, f64, [`Mpfr`](crate::number::Mpfr),
 /// [`Exact`](crate::number::Exact) and user-defined types.
 ///
-/// The bounds of the solver rest on the requirements of these methods. `laws::check_scalar_laws`, which
-/// requires the feature `mpfr`, checks them in your own tests.
+/// The bounds of the solver rest on the requirements of these methods. `laws::check_scalar_laws` checks them
+/// in your own tests. It requires the feature `mpfr`, in your dev-dependencies if your library does without.
 ///
 /// # Your own scalar
 /// A scalar is a number system ([recipe](crate::number::field#your-own-number-system)) with an order and a
@@ -66,8 +66,8 @@ impl<T: Scalar> Interval<T> {
 /// its methods delegate:
 ///
 /// ```
-/// use num_traits::{One, Zero};
 /// use spring_mass_contact::chapter::SpringMass;
+/// use spring_mass_contact::num_traits::{One, Zero};
 /// use spring_mass_contact::number::{Ball, Field, OrderedField, PositivePart};
 /// use spring_mass_contact::operators;
 /// use spring_mass_contact::solver::{Interval, Method, Scalar, solve};
