@@ -126,6 +126,12 @@ impl Results {
         if touches { &self.contact } else { &self.separated }
     }
 
+    /// Returns `true` if a formula divides by the number 0, so that the program has no answer.
+    fn divide_by_zero(&self) -> bool {
+        let mut formulas = self.condition.iter().chain(&self.contact).chain(&self.separated);
+        formulas.any(|formula| formula.any(&divides_by_zero))
+    }
+
     /// Returns the value that decides the state: R if there is no condition.
     pub fn reaction(&self, system: &SpringMass<Exact>, constants: &Constants<Exact>) -> Exact {
         let condition = self.condition.as_ref();
@@ -318,6 +324,11 @@ impl Program {
     }
 }
 
+/// Returns `true` if the last operation divides by the number 0.
+fn divides_by_zero(tree: &Tree) -> bool {
+    matches!(tree.op(), Op::Div(_, divisor) if *divisor.op() == Op::Int(0))
+}
+
 fn returned() -> Formulas {
     ["u", "N"].map(|name| Tree::symbol(name))
 }
@@ -417,7 +428,8 @@ pub(super) fn edits(by_penalty: bool) -> Vec<Mistake> {
     let rigid = by_penalty.then(|| Mistake::new("ε is not used: the plane is rigid", reference(false)));
     let edited = programs.iter().flat_map(|program| program.edited(by_penalty));
     let of_one_use = programs.iter().flat_map(|program| program.inlined().with_one_operation());
-    undecided(by_penalty).into_iter().chain(rigid).chain(edited).chain(of_one_use).collect()
+    let edited = edited.chain(of_one_use).filter(|mistake| !mistake.results.divide_by_zero());
+    undecided(by_penalty).into_iter().chain(rigid).chain(edited).collect()
 }
 
 /// Returns the mistakes that a program may make in some answers only: in its decision or its output.
