@@ -258,7 +258,7 @@ fn a_state_or_a_parameter_separates_wrong_answers() {
     assert_eq!(names(&heavy), ["N is 1.01 times the right value"]);
     let found: Vec<_> = heavy.conditions.iter().filter_map(|found| found.threshold.as_ref()).collect();
     assert!(found.iter().any(|found| found.quantity == Quantity::Mass && !found.is_below()), "{found:?}");
-    // Some answers, as no quantity tells: a decision is named all the same.
+    // No quantity separates some answers: a decision is still named.
     let wrong =
         |problem: &Problem| State::of(&problem.system) == Ok(State::Separated) && problem.id.ends_with('2');
     let some = changed(|problem, u, n| {
