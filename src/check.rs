@@ -223,7 +223,7 @@ pub fn check<E>(
         }
     }
     let by_penalty = problems.iter().any(|problem| problem.penalty.is_some());
-    report.diagnose(&Search::new(by_penalty, tolerance), tolerance);
+    report.diagnose(by_penalty, tolerance);
     Ok(report)
 }
 
@@ -290,7 +290,8 @@ impl Report {
     }
 
     /// Finds the causes of wrong answers, and the conditions under which they are wrong.
-    fn diagnose(&mut self, search: &Search, tolerance: &Exact) {
+    fn diagnose(&mut self, by_penalty: bool, tolerance: &Exact) {
+        let search = Search::new(by_penalty, tolerance);
         let results = self.results.iter().enumerate();
         let answers: Vec<_> = results.filter_map(|(i, of)| Observation::of(i, of, tolerance)).collect();
         self.diagnosis.extend(diagnosis::lag(&answers));

@@ -27,7 +27,7 @@ pub use entry::Entry;
 pub use formulas::computed;
 pub use hypotheses::{Hypotheses, hypotheses};
 pub use numbers::{find_entries, find_entry};
-pub use source::{SourceLine, function_line};
+pub use source::{SourceLine, find_definition, function_line};
 
 use crate::formula::{Registry, Statement};
 use crate::number::tree::Site;

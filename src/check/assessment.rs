@@ -103,7 +103,7 @@ fn value_used(name: &str, asked: &Exact, used: &Option<Value>, tolerance: &Exact
 }
 
 /// Formats six digits.
-fn format_short(x: &Exact) -> String {
+pub(super) fn format_short(x: &Exact) -> String {
     x.decimal(6, rug::float::Round::Nearest)
 }
 
@@ -124,15 +124,11 @@ pub(super) fn ball(x: &Exact) -> Option<Ball<f64>> {
 /// Returns enclosures of the float results of the formulas for u and N. A ball larger than the system itself
 /// explains nothing.
 pub(super) fn rounded(problem: &Problem) -> [Option<Ball<f64>>; 2] {
-    let sizes = sizes(&problem.system);
-    let penalty = problem.penalty.as_ref().map(ball);
-    let balls = match (balls(&problem.system), penalty) {
-        (Some(system), None) => right(&system, None).map(Some),
-        (Some(system), Some(Some(eps))) => right(&system, Some(&eps)).map(Some),
-        _ => [None, None],
-    };
-    let [u, n] = balls;
-    [u.filter(|ball| is_within(ball, &sizes[0])), n.filter(|ball| is_within(ball, &sizes[1]))]
+    let eps = problem.penalty.as_ref().and_then(ball);
+    let is_in_range = eps.is_some() == problem.penalty.is_some();
+    let Some(system) = balls(&problem.system).filter(|_| is_in_range) else { return [None, None] };
+    let ([u, n], [length, force]) = (right(&system, eps.as_ref()), sizes(&problem.system));
+    [(u, length), (n, force)].map(|(ball, size)| Some(ball).filter(|ball| is_within(ball, &size)))
 }
 
 /// Returns a system in balls around floats, if it is in range.

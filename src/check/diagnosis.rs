@@ -1,7 +1,7 @@
 //! Diagnosis: the one edit, the one number or the one rounding that explains the answers of a solver.
 
 use super::CASES;
-use super::assessment::fit;
+use super::assessment::{fit, format_short};
 use super::law::smoothed_law;
 use super::observation::{Agreement, Observation};
 use super::output::{Deviation, Output, described, deviations, have_deviations};
@@ -13,7 +13,6 @@ use crate::claims::registry;
 use crate::formula::Notation;
 use crate::number::{Exact, PositivePart, ToExact, Tree};
 use num_traits::{One, Zero};
-use rug::float::Round;
 use std::sync::LazyLock;
 use strum::Display;
 
@@ -78,7 +77,7 @@ impl Explanation {
     /// Returns its name.
     fn name(&self) -> String {
         let name = &self.mistake.name;
-        self.k.as_ref().map_or(name.clone(), |k| name.replace("{k}", &format_number(k)))
+        self.k.as_ref().map_or(name.clone(), |k| name.replace("{k}", &format_short(k)))
     }
 
     /// Returns the lines of its program.
@@ -86,7 +85,7 @@ impl Explanation {
         // The formulas of many steps are long.
         let is_long = self.mistake.augmentations.is_some();
         let lines = if is_long { Vec::new() } else { self.mistake.program.lines() };
-        lines.into_iter().chain(self.k.as_ref().map(|k| format!("k = {}", format_number(k)))).collect()
+        lines.into_iter().chain(self.k.as_ref().map(|k| format!("k = {}", format_short(k)))).collect()
     }
 
     /// Returns `true` if it may give an answer.
@@ -95,18 +94,13 @@ impl Explanation {
     }
 }
 
-/// Formats a number of six digits.
-pub(super) fn format_number(k: &Exact) -> String {
-    k.decimal(6, Round::Nearest)
-}
-
 impl Cause {
     /// Returns the diagnosis of a number of answers.
     pub fn diagnosis(self, answers: DiagnosisScope, of: usize) -> Diagnosis {
-        let (name, equivalent, program) = match self {
-            Cause::Program(found) => (found.name(), found.equivalent.clone(), found.lines()),
+        let (name, program, equivalent) = match self {
+            Cause::Program(found) => (found.name(), found.lines(), found.equivalent),
             Cause::Outputs(both) => (described(&both), Vec::new(), Vec::new()),
-            Cause::Other(name, number) => (name, Vec::new(), number.into_iter().collect()),
+            Cause::Other(name, number) => (name, number.into_iter().collect(), Vec::new()),
         };
         Diagnosis { name, equivalent, program, answers, of }
     }

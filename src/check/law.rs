@@ -1,6 +1,7 @@
 //! Contact laws without a corner: N (N − R) is a positive constant.
 
-use super::diagnosis::{INFORMATIVE, format_number};
+use super::assessment::format_short;
+use super::diagnosis::INFORMATIVE;
 use super::observation::Observation;
 use crate::chapter::{SpringMass, contact, system};
 use crate::number::{Exact, PositivePart};
@@ -15,7 +16,7 @@ pub(super) fn smoothed_law(answers: &[&Observation], fit: &Exact) -> Option<(&'s
             ("a barrier, N = k/(H − l − u)", k, "J")
         }
     };
-    Some((name, format!("k = {} {unit}", format_number(&k))))
+    Some((name, format!("k = {} {unit}", format_short(&k))))
 }
 
 /// Returns N (N − R)/unit if it is the same positive number in all answers, and clear in several.

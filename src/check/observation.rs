@@ -79,6 +79,11 @@ impl<'a> Observation<'a> {
         [&exact.deflection, &exact.contact_force][index]
     }
 
+    /// Returns the absolute error of u (0), in m, or N (1), in N.
+    pub fn absolute_error(&self, index: usize) -> Option<Exact> {
+        self.numbers()[index].as_ref().map(|number| (number - self.exact(index)).abs())
+    }
+
     /// Returns the larger of the errors of u and N relative to the system.
     pub fn error(&self) -> Option<&'a Exact> {
         self.assessment().error()
@@ -151,10 +156,8 @@ impl<'a> Observation<'a> {
         let penalty = self.problem.penalty.as_ref();
         let force = penalty.map(|eps| eps * &self.sizes[0]).unwrap_or_else(Exact::zero) + &self.sizes[1];
         let most = [&self.sizes[0] * Exact::power_of_two(-21), force * Exact::power_of_two(-21)];
-        (0..2).all(|i| {
-            let off = self.numbers()[i].as_ref().map(|x| (x - self.exact(i)).abs());
-            off.is_some_and(|off| off <= most[i] && most[i] <= self.sizes[i])
-        })
+        (0..2)
+            .all(|i| self.absolute_error(i).is_some_and(|error| error <= most[i] && most[i] <= self.sizes[i]))
     }
 
     /// Returns `true` if a right program with these parameters gives this answer, within the tolerance or the rounding

@@ -1,6 +1,7 @@
 //! Deviations of all u, or of all N, from the right ones.
 
-use super::diagnosis::{INFORMATIVE, format_number};
+use super::assessment::format_short;
+use super::diagnosis::INFORMATIVE;
 use super::observation::{Observation, has_digits};
 use super::problems::decimal;
 use crate::chapter::contact;
@@ -142,9 +143,9 @@ impl Deviation {
             Deviation::None => return None,
             Deviation::Sum(sum) => {
                 let size = if *sum < Exact::zero() { "small" } else { "large" };
-                ("is", format!("{} {unit} too {size}", format_number(&sum.abs())))
+                ("is", format!("{} {unit} too {size}", format_short(&sum.abs())))
             }
-            Deviation::Factor(k) => ("is", format!("{} times the right value", format_number(k))),
+            Deviation::Factor(k) => ("is", format!("{} times the right value", format_short(k))),
             Deviation::Decimals(n) => ("has", format!("at most {n} decimals")),
             Deviation::Digits(n) => ("has", format!("at most {n} digits")),
         })
@@ -186,33 +187,24 @@ pub(super) fn described([u, n]: &[Deviation; 2]) -> String {
 /// Returns the largest error of u in m, of N in N, and of their equilibrium in N: each if several are almost as large
 /// although the scales of their systems differ by a factor of a thousand.
 pub(super) fn absolute_bounds(wrong: &[&Observation], tolerance: &Exact) -> [Option<Exact>; 3] {
-    [deflection_error, force_error, residual].map(|error| {
-        let errors = wrong.iter().map(|answer| error(answer));
+    [0, 1, 2].map(|i| {
+        let errors = wrong.iter().map(|answer| {
+            let error = if i < 2 { answer.absolute_error(i) } else { residual(answer) };
+            Some((error?, &answer.scales[i.min(1)]))
+        });
         absolute_bound(&errors.collect::<Option<Vec<_>>>()?, tolerance)
     })
 }
 
-/// An absolute error, and the scale of such errors.
-type Error<'a> = (Exact, &'a Exact);
-
-fn deflection_error<'a>(answer: &'a Observation) -> Option<Error<'a>> {
-    let u = answer.numbers()[0].as_ref()?;
-    Some(((u - answer.exact(0)).abs(), &answer.scales[0]))
-}
-
-fn force_error<'a>(answer: &'a Observation) -> Option<Error<'a>> {
-    let n = answer.numbers()[1].as_ref()?;
-    Some(((n - answer.exact(1)).abs(), &answer.scales[1]))
-}
-
 /// Returns the error of equilibrium.
-fn residual<'a>(answer: &'a Observation) -> Option<Error<'a>> {
+fn residual(answer: &Observation) -> Option<Exact> {
     let [Some(u), Some(n)] = answer.numbers() else { return None };
-    Some((contact::equilibrium(&answer.problem.system, u, n).abs(), &answer.scales[1]))
+    Some(contact::equilibrium(&answer.problem.system, u, n).abs())
 }
 
-/// Returns the largest error if several are almost as large although their scales differ by a factor of a thousand.
-fn absolute_bound(errors: &[Error], tolerance: &Exact) -> Option<Exact> {
+/// Returns the largest of errors with their scales, if several are almost as large although the scales differ by a
+/// factor of a thousand.
+fn absolute_bound(errors: &[(Exact, &Exact)], tolerance: &Exact) -> Option<Exact> {
     let (most, _) = errors.iter().max()?;
     let wrong = errors.iter().filter(|(error, scale)| *error > tolerance * *scale).count();
     let large = errors.iter().filter(|(error, _)| error * Exact::from(10) >= *most);

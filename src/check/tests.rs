@@ -19,7 +19,7 @@ fn number(text: &str) -> Exact {
     text.parse().unwrap()
 }
 
-/// Returns one of so many mistakes, or all with `DEEP=1`. Similar ones are adjacent, so some of each kind are
+/// Returns one of `one_of` mistakes, or all with `DEEP=1`. Similar ones are adjacent, so some of each kind are
 /// tested.
 fn sample<T>(mistakes: impl IntoIterator<Item = T>, one_of: usize) -> impl Iterator<Item = T> {
     let is_deep = std::env::var_os("DEEP").is_some_and(|value| value == "1");

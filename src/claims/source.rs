@@ -53,9 +53,24 @@ const MODULES: [(&str, &str); 9] =
 pub fn function_line(path: &str) -> Option<SourceLine> {
     let (module, name) = path.split_once("::")?;
     let (_, text) = MODULES.iter().find(|(other, _)| *other == module)?;
-    let heads = ["fn", "struct"].map(|kind| format!("pub {kind} {name}"));
-    let line = text.lines().position(|line| {
-        heads.iter().filter_map(|head| line.strip_prefix(head)).any(|rest| rest.starts_with(['<', '(', ' ']))
-    })?;
-    Some(SourceLine { file: format!("src/chapter/{module}.rs"), line: line as u32 + 1 })
+    let (index, _) = find_definition(text, name)?;
+    Some(SourceLine { file: format!("src/chapter/{module}.rs"), line: index as u32 + 1 })
+}
+
+/// Returns the index of the line on which the definition of a public function or type begins in the text of a module,
+/// and its kind, `fn` or `struct`.
+///
+/// # Examples
+///
+/// ```
+/// use spring_mass_contact::claims::find_definition;
+/// assert_eq!(find_definition("/// Doc.\npub fn gap<T>() {}", "gap"), Some((1, "fn")));
+/// ```
+pub fn find_definition(text: &str, name: &str) -> Option<(usize, &'static str)> {
+    let heads = ["fn", "struct"].map(|kind| (kind, format!("pub {kind} {name}")));
+    text.lines().enumerate().find_map(|(index, line)| {
+        let mut kinds = heads.iter().filter_map(|(kind, head)| Some((*kind, line.strip_prefix(head)?)));
+        let (kind, _) = kinds.find(|(_, rest)| rest.starts_with(['<', '(', ' ']))?;
+        Some((index, kind))
+    })
 }

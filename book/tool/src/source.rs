@@ -1,6 +1,7 @@
 //! Source text of the functions in `src/chapter`.
 
 use anyhow::{Context, Result};
+use spring_mass_contact::claims::find_definition;
 use std::{
     fs,
     ops::RangeInclusive,
@@ -53,15 +54,8 @@ impl Item {
 /// Finds the lines from `pub fn name` or `pub struct name` to the closing brace: the first one at the beginning of a
 /// line, since the sources are formatted.
 fn find(text: &str, name: &str) -> Option<Item> {
-    let kind = |line: &str| {
-        ["fn", "struct"].into_iter().find(|kind| {
-            line.strip_prefix(&format!("pub {kind} "))
-                .and_then(|rest| rest.strip_prefix(name))
-                .is_some_and(|rest| rest.starts_with(['<', '(', ' ']))
-        })
-    };
+    let (first, kind) = find_definition(text, name)?;
     let lines: Vec<_> = text.lines().collect();
-    let (first, kind) = lines.iter().enumerate().find_map(|(i, line)| Some((i, kind(line)?)))?;
     let last = first + lines[first..].iter().position(|line| *line == "}")?;
     Some(Item { kind, code: lines[first..=last].join("\n"), lines: first + 1..=last + 1 })
 }

@@ -12,7 +12,11 @@ fn names(report: &Report) -> Vec<&str> {
 
 /// Returns a report on answers that are all changed in the same way.
 fn changed(change: impl Fn(&Problem, Exact, Exact) -> [Exact; 2]) -> Report {
-    run(&default_problems(), |problem| {
+    changed_in(&default_problems(), change)
+}
+
+fn changed_in(problems: &[Problem], change: impl Fn(&Problem, Exact, Exact) -> [Exact; 2]) -> Report {
+    run(problems, |problem| {
         let exact = problem.solution();
         let [u, n] = change(problem, exact.deflection, exact.contact_force);
         Answer::new(u, n)
@@ -295,11 +299,12 @@ fn two_wrong_answers_of_many_show_no_condition() {
     masses.sort();
     let conditions = |count: usize| {
         let least = &masses[masses.len() - count];
-        let report = run(&all, |problem| {
-            let exact = problem.solution();
-            let off = if problem.system.m >= *least { exact.deflection.clone() } else { Exact::zero() };
-            Answer::new(exact.deflection + off, exact.contact_force)
-        });
+        let report = changed_in(
+            &all,
+            |problem, u, n| {
+                if problem.system.m >= *least { [number("2") * u, n] } else { [u, n] }
+            },
+        );
         report.conditions
     };
     assert!(conditions(2).is_empty());
@@ -398,11 +403,7 @@ fn slight_sums_and_factors_are_not_named() {
             let height = number("1.1") - Exact::from(i) * number(part);
             problem(&format!("{i}"), Family::Contact, ["100", "1", "10", "1", &height.to_string()])
         });
-        let report = run(&all, |problem| {
-            let exact = problem.solution();
-            let [u, n] = change(exact.deflection, exact.contact_force);
-            Answer::new(u, n)
-        });
+        let report = changed_in(&all, |_, u, n| change(u, n));
         assert_eq!(report.summary().wrong, 3);
         names(&report).join("; ")
     };
@@ -482,7 +483,7 @@ fn a_lagging_force_is_distinguished() {
     changed_steps(&|_, answer| answer.steps.iter_mut().for_each(other));
     changed_steps(&|problem, answer| answer.steps[..2].clone_from_slice(&steps(problem, false).steps[..2]));
     changed_steps(&|problem, answer| *answer = steps(problem, problem.id != "contact-2"));
-    // Two pairs of steps show it, one does not, and the start is no step.
+    // Two pairs of steps decide it, one does not, and the start is not a step.
     let is_lagging = |count: usize| {
         let report = run(&problems(1, 3, &[Family::Contact]), |problem| {
             let mut answer = steps(problem, true);
@@ -596,11 +597,7 @@ fn nothing_else_is_named() {
 #[test]
 fn two_answers_show_nothing() {
     let named = |families: &[Family], change: fn(Exact, Exact) -> [Exact; 2]| {
-        let report = run(&problems(1, 1, families), |problem| {
-            let exact = problem.solution();
-            let [u, n] = change(exact.deflection, exact.contact_force);
-            Answer::new(u, n)
-        });
+        let report = changed_in(&problems(1, 1, families), |_, u, n| change(u, n));
         assert!(report.summary().wrong > 0);
         report.diagnosis.iter().map(|found| found.name.clone()).collect::<Vec<_>>()
     };
