@@ -212,15 +212,14 @@ operators! { #[inline] [T: Real] Ball<T>;
         Ball::from_parts(value, error, [&a.radius, &b.radius], false)
     };
     Mul mul |a, b| {
-        if a.is_exactly_zero() && b.is_finite() || b.is_exactly_zero() && a.is_finite() {
-            return Ball::zero();
-        }
         let value = &a.value * &b.value;
         // ab − a'b' = a(b − b') + b(a − a') − (a − a')(b − b')
         let from_a = times(&a.radius, || b.value.magnitude() + &b.radius);
         let from_b = times(&b.radius, || a.value.magnitude());
         let error = from_a + (from_b + product_error(&value));
-        Ball::from_parts(value, error, [&a.radius, &b.radius], false)
+        // The value is rarely 0, and the factors are looked at only then.
+        let zero = value.is_zero() && (a.is_exactly_zero() || b.is_exactly_zero());
+        Ball::from_parts(value, error, [&a.radius, &b.radius], zero)
     };
     Div div |a, b| {
         // Lower bound of |divisor|.

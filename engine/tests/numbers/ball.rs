@@ -314,6 +314,22 @@ fn scaled_balls_around_zero_contain_the_scaled_ends() {
     law::<Mpfr53, _>();
 }
 
+/// Subnormal numbers, whose products may round to 0 without being 0, get no radius 0.
+#[test]
+fn only_a_product_with_exactly_zero_is_exactly_zero() {
+    fn law<N: Real + ToExact>(least: &N) {
+        let (zero, least) = (Ball::<N>::zero(), Ball::point(least.clone()));
+        let third = Ball::point(N::one()) / Ball::point(N::int(3));
+        for factor in [&third, &least, &(&least - &third), &zero] {
+            assert!((&zero * factor).is_zero() && (factor * &zero).is_zero(), "{factor:?}");
+        }
+        let product = &least * &third * &least;
+        assert!(!product.is_zero() && product.contains(&Exact::zero()), "{product:?}");
+    }
+    law(&f32::from_bits(1));
+    law(&f64::from_bits(1));
+}
+
 #[test]
 fn division_by_a_ball_around_zero_is_unbounded_and_by_zero_undefined() {
     fn law<S: Floats<Number = N>, N: Real + Exponential + ToExact>(zeros: &[N]) {
