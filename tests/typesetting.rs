@@ -1,6 +1,6 @@
 //! The text of a formula, parsed independently, has the value of its tree.
 
-use crate::strategies::{cases, holds_often};
+use crate::strategies::runner::{cases, holds_often};
 use proptest::prelude::*;
 use spring_mass_contact::claims::{registry, statements};
 use spring_mass_contact::formula::claim::{

@@ -44,7 +44,7 @@ fn the_sign_of_a_rational_is_known() {
     }
 }
 
-/// An f64 that violates the law of this index in `Law`; none for 8; 9 underflows to 0 too early.
+/// An f64 that violates the law of this index; none for 8; 9 underflows to 0 too early; 10 has wrong integers.
 #[derive(Clone, Debug, PartialEq, PartialOrd)]
 struct Breaks<const LAW: usize>(f64);
 
@@ -70,7 +70,7 @@ impl<const LAW: usize> One for Breaks<LAW> {
 }
 impl<const LAW: usize> Field for Breaks<LAW> {
     fn int(n: i32) -> Self {
-        Breaks(n.into())
+        Breaks(if LAW == 10 { 2.0 } else { n.into() })
     }
 }
 impl<const LAW: usize> PositivePart for Breaks<LAW> {
@@ -139,6 +139,7 @@ fn a_violated_law_is_named() {
         (tried::<5>(), Law::Sign),
         (tried::<6>(), Law::Power),
         (tried::<7>(), Law::SignOfSum),
+        (tried::<10>(), Law::Integer),
     ] {
         assert_eq!(found.as_ref().map_err(|broken| broken.law), Err(law), "{found:?}");
     }
@@ -161,6 +162,7 @@ fn a_violated_law_reports_its_counterexample() {
         said(order),
         "the law Order is violated: Breaks(1.0) min Breaks(-1.0): Breaks(1.0), expected -1"
     );
+    assert_eq!(said(tried::<10>()), "the law Integer is violated: the integer -16777216: Breaks(2.0)");
     let zero = laws::check_scalar_laws(&[Breaks::<9>(1e-100)], |x| exact(&x.0));
     assert_eq!(said(zero), "the law Order is violated: is_zero of Breaks(1e-100): true, expected false");
     let finite = laws::check_scalar_laws(&[Breaks::<1>(1e100)], |x| exact(&x.0));

@@ -4,11 +4,11 @@
 //! every machine and in every scalar. c, m, l, Δ and R are sampled; H = l + Δ and g = (R + c Δ)/m follow. The
 //! sign of R, and with it the state, is therefore known. A case is printed as options of `contact solve`.
 
-mod runner;
+pub mod runner;
 
 pub use num_traits::Zero;
 pub use proptest::prelude::*;
-pub use runner::{cases, holds, holds_often};
+pub use runner::holds;
 pub use spring_mass_contact::chapter::{SpringMass, system};
 use spring_mass_contact::number::Real;
 pub use spring_mass_contact::number::{Exact, Mpfr, OrderedField, PositivePart, ToExact};

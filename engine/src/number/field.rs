@@ -150,6 +150,10 @@ pub trait Exponential: Field {
 pub trait OrderedField: PositivePart + PartialOrd {}
 
 /// Floating-point numbers: f32, f64 and [`Mpfr`](super::Mpfr). Every operation rounds to nearest.
+///
+/// [`Ball`](super::Ball)s of another type are correct if an operation differs from the exact result by at most
+/// [`half_ulp`](Real::half_ulp) of the rounded one, a product or quotient by half of
+/// [`min_subnormal`](Real::min_subnormal) more, and the methods below hold as stated.
 pub trait Real: OrderedField {
     /// Returns the unit roundoff η at the precision of this value: 2⁻²⁴, 2⁻⁵³, or 2⁻ᵖ for p bits; 0 for an
     /// exact constant.

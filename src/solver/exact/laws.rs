@@ -2,13 +2,15 @@
 //! tests.
 
 use super::{Interval, Scalar};
-use crate::number::{Exact, PositivePart};
+use crate::number::{Exact, Field, PositivePart};
 use num_traits::{One, Zero};
 use rug::float::Round;
 
 /// A law of [`Scalar`], named after the method concerned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Law {
+    /// [`int`](Field::int) is exact up to 2²⁴, in scalars and in enclosures.
+    Integer,
     /// Numbers compare as their values do, only 0 is zero, and ⟨·⟩, min and |·| are exact.
     Order,
     /// A number with a value is finite.
@@ -61,6 +63,7 @@ pub fn check_scalar_laws<T: Scalar<Enclosure = E>, E: PositivePart>(
     exact: impl Fn(&T) -> Exact,
 ) -> Result<(), LawViolation> {
     let laws = LawChecker { exact: &exact };
+    laws.of_integers()?;
     let known: Vec<_> = samples.iter().map(|x| Sample { number: x, exact: (laws.exact)(x) }).collect();
     for a in &known {
         laws.of_one(a)?;
@@ -85,6 +88,15 @@ struct LawChecker<'a, T> {
 }
 
 impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
+    fn of_integers(&self) -> Result<(), LawViolation> {
+        for n in [-(1 << 24), -3, -1, 0, 1, 2, 3, (1 << 24) - 1] {
+            let (number, right) = (T::int(n), Exact::int(n));
+            hold((self.exact)(&number) == right, Law::Integer, || format!("the integer {n}: {number:?}"))?;
+            self.encloses(&E::int(n), &right, Law::Integer, || format!("the enclosure of {n}"))?;
+        }
+        Ok(())
+    }
+
     fn of_one(&self, a: &Sample<T>) -> Result<(), LawViolation> {
         let Sample { number, exact } = a;
         hold(number.is_finite(), Law::Finite, || format!("{number:?}, which is {}", written(exact)))?;
