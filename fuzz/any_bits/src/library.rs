@@ -36,19 +36,75 @@ fn zero() -> Exact {
     Exact::zero()
 }
 
-/// Returns a text of arbitrary bytes, or of the characters of numbers.
+/// Returns a text of arbitrary bytes, or of the characters of decimal or of hexadecimal numbers.
 fn text(bytes: &mut Bytes) -> String {
-    const CHARACTERS: &[u8] = b"00123456789012345678901234567890123456789..//eE--+  _x\x00naif";
+    const DECIMAL: &[u8] = b"00123456789012345678901234567890123456789..//eE--+  _x\x00naif";
+    const HEXADECIMAL: &[u8] = b"00123456789abcdefABCDEF0123456789abcdef...pP+-";
     if bytes.one_in(8) {
         return String::from_utf8_lossy(bytes.rest()).into_owned();
     }
+    let (start, characters, mark) = if bytes.one_in(4) {
+        (*bytes.pick(&["0x", "-0X", "+0x"]), HEXADECIMAL, 'p')
+    } else {
+        ("", DECIMAL, 'e')
+    };
     let count = bytes.below(24);
-    let mut text: String = (0..count).map(|_| char::from(*bytes.pick(CHARACTERS))).collect();
-    // Else few would have a power of ten that can be read.
+    let mut text: String = start.to_string();
+    text.extend((0..count).map(|_| char::from(*bytes.pick(characters))));
+    // Else few would have an exponent that can be read.
     if bytes.one_in(2) {
-        text += &format!("e{}", bytes.bits() as i64 >> (16 + bytes.below(48)));
+        text += &format!("{mark}{}", bytes.bits() as i64 >> (16 + bytes.below(48)));
     }
     text
+}
+
+/// A number in decimal, scientific or hexadecimal notation: `sign digits / base^decimals · radix^exponent`.
+struct Positional {
+    negative: bool,
+    digits: Exact,
+    decimals: i64,
+    base: i32,
+    exponent: i64,
+    radix: i32,
+}
+
+impl Positional {
+    /// Returns the parts of a text; `None` if it is no such number.
+    fn of(text: &str) -> Option<Self> {
+        let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+        let is_hexadecimal = unsigned.get(..2).is_some_and(|start| start.eq_ignore_ascii_case("0x"));
+        let (number, base, radix, marks) =
+            if is_hexadecimal { (&unsigned[2..], 16, 2, ['p', 'P']) } else { (unsigned, 10, 10, ['e', 'E']) };
+        let (mantissa, exponent) = number.split_once(marks).unwrap_or((number, "0"));
+        let mut positional = Positional {
+            negative: text.starts_with('-'),
+            digits: zero(),
+            decimals: 0,
+            base,
+            exponent: exponent.parse::<i128>().ok()?.clamp(i64::MIN.into(), i64::MAX.into()) as i64,
+            radix,
+        };
+        let (mut count, mut is_fraction) = (0, false);
+        for character in mantissa.chars() {
+            if character == '.' && !is_fraction {
+                is_fraction = true;
+                continue;
+            }
+            let digit = character.to_digit(base as u32)?;
+            positional.digits = positional.digits * Exact::from(base) + Exact::from(digit as i32);
+            positional.decimals += i64::from(is_fraction);
+            count += 1;
+        }
+        (count > 0).then_some(positional)
+    }
+
+    /// Returns `true` if this is the number x, which has an exponent that is allowed.
+    fn is(&self, x: &Exact) -> bool {
+        let power = |base: i32, n: i64| Exact::from(Rational::from(Integer::from(base).pow(n.max(0) as u32)));
+        let x = if self.negative { -x } else { x.clone() };
+        let scaled = x * power(self.base, self.decimals) * power(self.radix, -self.exponent);
+        scaled == &self.digits * power(self.radix, self.exponent)
+    }
 }
 
 /// Every notation is parsed exactly or rejected; the results for f32 and f64 are compared with Rust's.
@@ -57,7 +113,7 @@ pub fn parse(bytes: &[u8]) {
     let text = text(&mut bytes);
     show(|| format!("{text:?}"));
     let read = text.parse::<Exact>();
-    let by_rust = text.parse::<f64>().ok().filter(|_| !text.contains(['n', 'N', 'i', 'I', 'y', 'Y']));
+    let positional = Positional::of(&text);
     match &read {
         Ok(x) if text.contains('/') => {
             let (p, q) = text.split_once('/').expect("a fraction");
@@ -68,26 +124,20 @@ pub fn parse(bytes: &[u8]) {
             assert_eq!(x * q, p);
         }
         Ok(x) => {
-            let by_rust = by_rust.expect("it is read");
-            let (mantissa, power) = text.split_once(['e', 'E']).unwrap_or((&text, "0"));
-            let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-            let power = power.parse::<i64>().expect("a power");
-            assert!(power.abs() <= i64::from(MAX_EXPONENT));
-            let digits = Rational::from(format!("{whole}{fraction}").parse::<Integer>().expect("digits"));
-            let ten = |n: i64| Exact::from(Rational::from(Integer::from(10).pow(n.max(0) as u32)));
-            let power = power - fraction.len() as i64;
-            assert_eq!(x * ten(-power), Exact::from(digits) * ten(power));
-            nearest(x, by_rust, "f64", x.to_f64());
-            nearest(x, text.parse::<f32>().expect("a number"), "f32", x.to_f32());
+            let positional = positional.expect("it is read");
+            assert!(positional.exponent.abs() <= i64::from(MAX_EXPONENT));
+            assert!(positional.is(x), "{x}");
+            if positional.base == 10 {
+                nearest(x, text.parse().expect("a number"), "f64", x.to_f64());
+                nearest(x, text.parse().expect("a number"), "f32", x.to_f32());
+            }
         }
         Err(ParseError::Empty) => assert_eq!(text, ""),
-        Err(ParseError::NotANumber) => assert_eq!(by_rust, None, "it is refused"),
+        Err(ParseError::NotANumber) => assert!(positional.is_none(), "it is refused"),
         Err(ParseError::DivisionByZero) => assert!(text.trim_end_matches('0').ends_with('/')),
         Err(ParseError::Exponent) => {
-            let (_, power) = text.split_once(['e', 'E']).expect("a power");
-            assert!(
-                by_rust.is_some() && power.parse().is_ok_and(|n: i128| n.abs() > i128::from(MAX_EXPONENT))
-            );
+            let exponent = positional.expect("a number").exponent;
+            assert!(exponent.unsigned_abs() > u64::from(MAX_EXPONENT.unsigned_abs()));
         }
         Err(other) => panic!("{other:?}"),
     }
