@@ -5,6 +5,7 @@ use crate::strategies::*;
 use spring_mass_contact::chapter::{contact, penalty};
 use spring_mass_contact::number::Ball;
 use spring_mass_contact::rug::Rational;
+use std::cmp::Ordering;
 
 /// Returns the state for a value of R.
 fn state_for(r: &Exact) -> State {
@@ -297,6 +298,10 @@ fn the_sign_is_exact_at_the_ends_of_the_range() {
     holds(numbers(), |numbers| the_sign_is_exact(&1f32, *numbers));
     holds(numbers(), |numbers| the_sign_is_exact(&1f64, *numbers));
     the_sign_is_exact(&1f64, [(0, 0, false); 6]);
+    // Its square has no digits among the last 64 of the accumulator.
+    let subnormal = f64::from_bits(1 << 51);
+    let positive = f64::sign_of_sum([(&subnormal, &subnormal), (&0.0, &0.0)], (&0.0, &0.0));
+    assert_eq!(positive, Ordering::Greater);
 }
 
 /// m g and c (H − l) agree as well as their digits allow, or differ by some ulps of g, so rounding can change

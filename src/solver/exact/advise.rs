@@ -324,4 +324,29 @@ mod tests {
             assert!(one <= found && found < &one + &one / Exact::from(100), "{found} from {from}");
         }
     }
+
+    #[test]
+    fn the_next_number_with_few_digits_is_the_least_one_above() {
+        for (x, next) in [("1.2395", "1.24"), ("1.24", "1.25"), ("9.99", "10"), ("0.0099901", "0.01")] {
+            assert_eq!(next_above(&x.parse().unwrap(), 3), next.parse().unwrap(), "{x}");
+        }
+    }
+
+    /// p = R/(c + ε) = 1/4 for ε = 4, and the tolerance has to exceed it.
+    #[test]
+    fn an_error_equal_to_the_tolerance_does_not_meet_it() {
+        let system = SpringMass { c: 4, m: 1, g: 10, l: 1, h: 3 }.map(|x| Exact::from(*x));
+        let tolerance = Exact::power_of_two(-2);
+        let advisor = Advisor {
+            system: &system,
+            tolerance: &tolerance,
+            exact_deflection: contact::deflection(&system),
+            is_above_floor: true,
+            arithmetic: Arithmetic::Exact,
+            exact_system: system.clone(),
+            exact_tolerance: tolerance.clone(),
+        };
+        let meets = |eps| advisor.run(Method::Penalty { penalty: Exact::from(eps) }).is_some();
+        assert!(!meets(4) && meets(5));
+    }
 }

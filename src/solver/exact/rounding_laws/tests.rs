@@ -24,6 +24,15 @@ fn numbers_that_lose_precision_guarantee_nothing() {
     assert!(!converges(laws(8, 4095, 4098)) && !converges(laws(8, 4096, 4097)));
 }
 
+/// c |Δ| ≥ 2 if the mass is separated; the floor in contact is that for ε → ∞.
+#[test]
+fn a_force_that_loses_precision_leaves_no_floor_of_a_separated_mass() {
+    let has_floor =
+        |(weight, gap)| laws(weight, 4096, 4096 + gap).rounding_floor(Plane::Unilateral).is_some();
+    assert!(has_floor((1, 4)) && !has_floor((0, 1)));
+    assert!(has_floor((8, 4)) && has_floor((8, 1)));
+}
+
 #[test]
 fn an_underflow_increases_the_drift_and_the_weight() {
     let (normal, four) = (laws(100_000, 4096, 4096), Exact::from(4));
