@@ -1,8 +1,6 @@
 //! All tests of the library and of the whole, in one binary, so that what they share is compiled and computed once.
 
 mod api_guarantees;
-mod files;
-mod layering;
 
 #[cfg(feature = "mpfr")]
 mod derivatives;
@@ -25,6 +23,8 @@ mod coq;
 mod coqc;
 #[cfg(feature = "prover")]
 mod examples;
+#[cfg(feature = "prover")]
+mod files;
 #[cfg(feature = "prover")]
 mod gallina;
 #[cfg(feature = "prover")]

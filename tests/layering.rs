@@ -5,7 +5,9 @@
 //!
 //! Sources are read as tokens: names in comments, strings and docs do not count, names within macros do.
 
-use crate::files::{files, source};
+mod files;
+
+use files::{files, source};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::collections::BTreeSet;
 
