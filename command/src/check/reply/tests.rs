@@ -48,6 +48,7 @@ fn numbers_are_read_by_their_digits() {
     assert_eq!(numbers(&long, "1e4000"), [exact(&long), exact("1e4000")]);
     assert_eq!(numbers("-0", "-0.0e9"), [exact("0"), exact("0")]);
     assert_eq!(numbers("0x1.8p-3", r#""-0X1E""#), [exact("3/16"), exact("-30")]);
+    assert_eq!(numbers("1", "0x1p4000")[1], Some(Exact::power_of_two(4000)));
     let least = Some(Exact::power_of_two(-1074));
     assert_eq!(numbers("0x0.0000000000001p-1022", "0x1e9999"), [least, exact("2005401")]);
 }
@@ -274,6 +275,12 @@ fn nothing_that_is_read_takes_long() {
         let reason = garbled(&steps(600));
         assert!(reason.contains("no more than 4194304 digits together"), "{reason}");
     }
+    // 1023 numbers of 4096 digits, 4094 in the last one, and those of U and N.
+    let step = |n: &str| format!("{{\"deflection\": 1e4090, \"contact_force\": {n}}}");
+    let steps =
+        |last| format!("{U}, {N}, \"steps\": [{}{}]", (step("1e4090") + ", ").repeat(511), step(last));
+    assert_eq!(answered(&steps("1e4088")).steps.len(), 512);
+    garbled(&steps("1e4089"));
     let step = "{\"deflection\": 1, \"contact_force\": 1}";
     let steps = |count| format!("{U}, {N}, \"steps\": [{}]", vec![step; count].join(","));
     assert_eq!(answered(&steps(MAX_STEPS)).steps.len(), MAX_STEPS);

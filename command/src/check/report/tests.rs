@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::args::parse_number;
+use crate::check::{Options, json};
 use crate::output::capture;
+use clap::{Args, FromArgMatches};
 use spring_mass_contact::chapter::{SpringMass, contact, lagrange, structure, system};
 use spring_mass_contact::check::{Answer, CASES, Family, Problem, check, problems};
 use spring_mass_contact::solver::Augmentation;
@@ -100,6 +102,87 @@ fn what_nothing_explains_is_said() {
     let invalid =
         check(&all(), &number("1e-6"), |_| Ok::<_, Infallible>(Reply::InvalidResponse("no key".into())));
     assert!(!said(&invalid.expect("no failure")).contains(text), "the example says what is wrong");
+}
+
+/// Returns a wrong answer that no single mistake explains.
+fn twice_wrong(problem: &Problem) -> Answer {
+    let Answer { deflection, contact_force, .. } = right(problem);
+    let random = |x: Option<Exact>| x.map(|x| x * number("1.5") + &problem.system.h * &problem.system.m);
+    Answer { deflection: random(deflection), contact_force: random(contact_force), ..Answer::default() }
+}
+
+const UNEXPLAINED: &str = "No single mistake that is searched for explains";
+
+#[test]
+fn a_condition_is_described_by_a_state_or_by_each_quantity_that_fits() {
+    let in_contact = report(&all(), |problem| {
+        let touches = system::reaction(&problem.system) > number("0");
+        if touches { twice_wrong(problem) } else { right(problem) }
+    });
+    let count = in_contact.summary().wrong;
+    let text = format!("The {count} wrong answers are to all {count} systems in contact. ");
+    let said_of = said(&in_contact) + " ";
+    assert!(said_of.contains(&text) && !said_of.contains(UNEXPLAINED), "{said_of}");
+
+    let is_stiff = |system: &SpringMass<Exact>| system.c > number("1000");
+    let of_stiff =
+        |problems: &[Problem]| {
+            said(&report(problems, |problem| {
+                if is_stiff(&problem.system) { twice_wrong(problem) } else { right(problem) }
+            }))
+        };
+    let more = "More cases may tell which of these matters.";
+    let one = of_stiff(&all());
+    assert!(one.contains("systems with c from ") && !one.contains(more), "{one}");
+    let mut alike = all();
+    alike.retain(|problem| is_stiff(&problem.system) == (problem.system.m > number("2")));
+    let several = of_stiff(&alike);
+    assert!(several.contains(", or ") && several.contains(more), "{several}");
+}
+
+/// Every second answer is the one before, also when the request is repeated.
+#[test]
+fn answers_of_earlier_requests_are_reported_by_both_requests() {
+    let problems = all();
+    let place = |id: &str| problems.iter().position(|problem| id == problem.id).expect("a request");
+    let stale = report(&problems, |problem| {
+        let place = place(&problem.id);
+        right(&problems[place - place % 2])
+    });
+    let options = Options::augment_args(clap::Command::new("check"));
+    let options = Options::from_arg_matches(&options.get_matches_from(["check", "--", "program"]));
+    let json = serde_json::to_value(json::report("program", &options.expect("options"), &stale));
+    let json = json.expect("a report");
+    let pairs = json["carried_over"].as_array().expect("pairs").iter();
+    let pairs: Vec<_> = pairs.map(|pair| [0, 1].map(|end| pair[end].as_str().expect("an id"))).collect();
+    assert!(
+        pairs.len() > 9 && pairs.iter().all(|[id, earlier]| place(id) == place(earlier) + 1),
+        "{pairs:?}"
+    );
+    let said = said(&stale);
+    let ([id, earlier], count, wrong) = (pairs[0], pairs.len(), stale.summary().wrong);
+    let text = format!(
+        "The program carries something over from earlier requests: {count} of {wrong} wrong answers are the right \
+         ones of an earlier request; that to {id} is that to {earlier}."
+    );
+    assert!(said.contains(&text) && !said.contains(UNEXPLAINED), "{said}");
+}
+
+#[test]
+fn errors_that_do_not_grow_are_reported() {
+    let part = |problem: &Problem| number(if problem.id.len().is_multiple_of(2) { "1" } else { "0.7" });
+    for (off, text) in [
+        ([Some("1e-6"), None], "the largest is 1e-6 m of u. "),
+        ([None, Some("1e-3")], "the largest is 0.001 N of N. "),
+        ([Some("1e-6"), Some("1e-3")], "the largest is 1e-6 m of u, 0.001 N of N. "),
+    ] {
+        let off = off.map(|off| number(off.unwrap_or("0")));
+        let said = said(&report(&all(), |problem| {
+            let (exact, [u, n]) = (problem.solution(), off.each_ref().map(|off| off * part(problem)));
+            Answer::new(exact.deflection + u, exact.contact_force + n)
+        }));
+        assert!(said.contains(text) && !said.contains(UNEXPLAINED), "{said}");
+    }
 }
 
 /// (1.16), with the force of the previous step.
