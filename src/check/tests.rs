@@ -6,7 +6,7 @@ mod judged;
 use super::program::{Constants, Mistake, edits, numbers, value};
 use super::*;
 use crate::chapter::{SpringMass, augmented, contact, structure, system};
-use crate::number::{PositivePart, ToExact};
+use crate::number::{Ball, PositivePart, ToExact};
 use crate::solver::{Augmentation, Method, State, solve};
 use num_traits::Zero;
 use rug::float::Round;

@@ -277,6 +277,63 @@ fn a_state_or_a_parameter_separates_wrong_answers() {
     assert!(some.conditions.is_empty() && some.diagnosis.is_empty(), "{:?}", some.diagnosis);
 }
 
+/// The threshold lies between the two systems next to it, on either side, and not in one of them.
+#[test]
+fn a_threshold_is_that_of_the_nearest_systems() {
+    let threshold_of_mass = |problems: &[Problem], is_wrong: &dyn Fn(&Problem) -> bool| {
+        let report =
+            changed_in(problems, |problem, u, n| [u, if is_wrong(problem) { n + number("1") } else { n }]);
+        let mut found = report.conditions.into_iter().filter_map(|found| found.threshold);
+        found.find(|found| found.quantity == Quantity::Mass)
+    };
+    let mut problems = problems(1, 20, &[Family::Contact, Family::Separated]);
+    let is_heavy = |problem: &Problem| problem.system.m > number("5");
+    let (heavy, light): (Vec<_>, Vec<_>) = problems.iter().partition(|problem| is_heavy(problem));
+    let mass = |problem: &&Problem| problem.system.m.clone();
+    let (least, most) = (heavy.iter().map(mass).min().unwrap(), light.iter().map(mass).max().unwrap());
+    let expected = |[wrong, right]: [&Exact; 2]| {
+        Some(Threshold { quantity: Quantity::Mass, wrong: wrong.clone(), right: right.clone() })
+    };
+    assert_eq!(threshold_of_mass(&problems, &is_heavy), expected([&least, &most]));
+    assert_eq!(threshold_of_mass(&problems, &|problem| !is_heavy(problem)), expected([&most, &least]));
+    // One of two systems with the same mass has a wrong answer.
+    let same = problems.iter().find(|problem| problem.system.m == least).unwrap().clone();
+    problems.push(Problem { id: "same".to_string(), ..same });
+    let is_other = |problem: &Problem| is_heavy(problem) && problem.id != "same";
+    assert_eq!(threshold_of_mass(&problems, &is_other), None);
+    assert_eq!(threshold_of_mass(&problems, &|problem| !is_other(problem)), None);
+}
+
+/// A second answer may differ from the first by the tolerance.
+#[test]
+fn the_tolerance_of_a_repeated_answer_is_the_border() {
+    let changed = |times: &str| {
+        let asked = RefCell::new(HashSet::new());
+        let report = run(&default_problems(), |problem| {
+            let is_first = asked.borrow_mut().insert(problem.id.clone());
+            let [length, _] = assessment::scales(&problem.system);
+            let off = if is_first { Exact::zero() } else { number(times) * number(TOLERANCE) * length };
+            Answer { deflection: right(problem).deflection.map(|u| u + off), ..right(problem) }
+        });
+        (report.changed.len(), report.repeated)
+    };
+    assert_eq!(changed("1").0, 0);
+    let (more, all) = changed("1.001");
+    assert!(more == all && all > 5);
+}
+
+/// 2 m has the effect of 2 g.
+#[test]
+fn parameters_with_the_same_effect_are_named() {
+    let twice = run(&default_problems(), |problem| {
+        let system = SpringMass { g: &problem.system.g * number("2"), ..problem.system.clone() };
+        right(&Problem { system, ..problem.clone() })
+    });
+    let [found] = &twice.diagnosis[..] else { panic!("{:?}", names(&twice)) };
+    assert_eq!(found.name, "m is 2 times the right value");
+    assert_eq!(found.equivalent, ["g is 2 times the right value"]);
+}
+
 /// A single quantity rarely separates wrong answers from right ones by chance.
 #[test]
 fn few_systems_show_no_condition() {
