@@ -17,8 +17,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Time limit of an execution, whose arguments are short; it is larger without optimisation.
-const LONGEST: Duration = Duration::from_secs(if cfg!(debug_assertions) { 10 } else { 1 });
+/// Time limit of an execution, whose arguments are short; it is larger without optimisation. Hundreds of augmentations
+/// in rationals take a second.
+const LONGEST: Duration = Duration::from_secs(if cfg!(debug_assertions) { 10 } else { 3 });
 
 /// Time after which an execution is abandoned.
 const HANG: Duration = Duration::from_secs(60);
