@@ -172,18 +172,17 @@ impl<'a> Search<'a> {
         differing.take(INFORMATIVE).count() == INFORMATIVE
     }
 
-    /// Returns `true` if the mistake explains all answers, and most wrong ones not only by rounding errors.
+    /// Returns `true` if the mistake explains all answers, and several wrong ones not only by rounding errors.
     fn explains_all(&self, mistake: &Mistake, k: Option<&Exact>, answers: &[&Observation]) -> bool {
-        let (mut wrong, mut clear) = (0, 0);
+        let mut clear = 0;
         for answer in answers {
             let agreement = answer.agreement(&mistake.results, k, &self.fit);
             if agreement == Agreement::No {
                 return false;
             }
-            wrong += usize::from(answer.is_wrong());
             clear += usize::from(answer.is_wrong() && agreement == Agreement::Clear);
         }
-        2 * clear >= wrong.max(2 * INFORMATIVE)
+        clear >= INFORMATIVE
     }
 
     fn edits(&self, answers: &[&Observation]) -> Vec<Cause> {

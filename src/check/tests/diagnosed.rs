@@ -212,7 +212,8 @@ fn on_curve(problem: &Problem, k: &Exact) -> [Exact; 2] {
     let root = (r * r + 4.0 * k).sqrt();
     let n = if r > 0.0 { (r + root) / 2.0 } else { 2.0 * k / (root - r) };
     let n = n.to_exact().unwrap();
-    [(system::weight(&problem.system) - &n) / &problem.system.c, n]
+    let u = (system::weight(&problem.system) - &n) / &problem.system.c;
+    [u.to_f64().unwrap().to_exact().unwrap(), n]
 }
 
 /// Returns the answers of a solver that decides wrongly for some systems in a state.
@@ -449,6 +450,18 @@ fn a_slight_corner_is_not_named() {
         Answer::new((system::weight(&problem.system) - &force) / &problem.system.c, force)
     });
     assert_eq!((report.summary().wrong, names(&report)), (3, vec![]));
+}
+
+/// Forces are at most the weight. The rounding errors of the right ones are not those of a penalty of 10¹⁵ c.
+#[test]
+fn rounding_errors_of_right_answers_name_nothing() {
+    let limited = run(&default_problems(), |problem| {
+        let SpringMass { c, m, g, l, h } = problem.system.try_map(Exact::to_f64).unwrap();
+        let u = (m * g / c).min(h - l);
+        let force = (m * g - c * u).max(0.0).min((m * g).abs());
+        Answer::new(u.to_exact().unwrap(), force.to_exact().unwrap())
+    });
+    assert!(limited.summary().wrong > 2 && names(&limited).is_empty(), "{:?}", names(&limited));
 }
 
 /// A sum, or a factor, is named if several answers determine it to a hundredth.
