@@ -167,7 +167,10 @@ fn a_violated_law_reports_its_counterexample() {
         said(order),
         "the law Order is violated: Breaks(1.0) min Breaks(-1.0): Breaks(1.0), expected -1"
     );
-    assert_eq!(said(tried::<10>()), "the law Integer is violated: the integer -16777216: Breaks(2.0)");
+    assert_eq!(
+        said(tried::<10>()),
+        "the law Integer is violated: the integer -16777216: Breaks(2.0), expected -16777216"
+    );
     let zero = laws::check_scalar_laws(&[Breaks::<9>(1e-100)], |x| exact(&x.0));
     assert_eq!(said(zero), "the law Order is violated: is_zero of Breaks(1e-100): true, expected false");
     let finite = laws::check_scalar_laws(&[Breaks::<1>(1e100)], |x| exact(&x.0));

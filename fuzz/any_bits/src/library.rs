@@ -58,14 +58,11 @@ fn text(bytes: &mut Bytes) -> String {
     text
 }
 
-/// A number in decimal, scientific or hexadecimal notation: `sign digits / base^decimals · radix^exponent`.
+/// A number in decimal, scientific or hexadecimal notation: `mantissa · radix^exponent`.
 struct Positional {
-    negative: bool,
-    digits: Exact,
-    decimals: i64,
-    base: i32,
-    exponent: i64,
+    mantissa: Exact,
     radix: i32,
+    exponent: i64,
 }
 
 impl Positional {
@@ -75,36 +72,34 @@ impl Positional {
         let is_hexadecimal = unsigned.get(..2).is_some_and(|start| start.eq_ignore_ascii_case("0x"));
         let (number, base, radix, marks) =
             if is_hexadecimal { (&unsigned[2..], 16, 2, ['p', 'P']) } else { (unsigned, 10, 10, ['e', 'E']) };
-        let (mantissa, exponent) = number.split_once(marks).unwrap_or((number, "0"));
-        let mut positional = Positional {
-            negative: text.starts_with('-'),
-            digits: zero(),
-            decimals: 0,
-            base,
-            exponent: exponent.parse::<i128>().ok()?.clamp(i64::MIN.into(), i64::MAX.into()) as i64,
-            radix,
-        };
-        let (mut count, mut is_fraction) = (0, false);
-        for character in mantissa.chars() {
-            if character == '.' && !is_fraction {
-                is_fraction = true;
-                continue;
-            }
-            let digit = character.to_digit(base as u32)?;
-            positional.digits = positional.digits * Exact::from(base) + Exact::from(digit as i32);
-            positional.decimals += i64::from(is_fraction);
-            count += 1;
+        let (digits, exponent) = number.split_once(marks).unwrap_or((number, "0"));
+        let exponent = exponent.parse::<i128>().ok()?.clamp(i64::MIN.into(), i64::MAX.into()) as i64;
+        let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+        if whole.is_empty() && fraction.is_empty() {
+            return None;
         }
-        (count > 0).then_some(positional)
+        let mut mantissa = zero();
+        for character in whole.chars().chain(fraction.chars()) {
+            let digit = character.to_digit(base as u32)?;
+            mantissa = mantissa * Exact::from(base) + Exact::from(digit as i32);
+        }
+        let mantissa = mantissa / power(base, fraction.len() as i64);
+        Some(Positional {
+            mantissa: if text.starts_with('-') { -mantissa } else { mantissa },
+            radix,
+            exponent,
+        })
     }
 
     /// Returns `true` if this is the number x, which has an exponent that is allowed.
     fn is(&self, x: &Exact) -> bool {
-        let power = |base: i32, n: i64| Exact::from(Rational::from(Integer::from(base).pow(n.max(0) as u32)));
-        let x = if self.negative { -x } else { x.clone() };
-        let scaled = x * power(self.base, self.decimals) * power(self.radix, -self.exponent);
-        scaled == &self.digits * power(self.radix, self.exponent)
+        x * power(self.radix, -self.exponent) == &self.mantissa * power(self.radix, self.exponent)
     }
+}
+
+/// Returns a power; 1 for a negative exponent.
+fn power(base: i32, exponent: i64) -> Exact {
+    Exact::from(Rational::from(Integer::from(base).pow(exponent.max(0) as u32)))
 }
 
 /// Every notation is parsed exactly or rejected; the results for f32 and f64 are compared with Rust's.
@@ -127,7 +122,7 @@ pub fn parse(bytes: &[u8]) {
             let positional = positional.expect("it is read");
             assert!(positional.exponent.abs() <= i64::from(MAX_EXPONENT));
             assert!(positional.is(x), "{x}");
-            if positional.base == 10 {
+            if positional.radix == 10 {
                 nearest(x, text.parse().expect("a number"), "f64", x.to_f64());
                 nearest(x, text.parse().expect("a number"), "f32", x.to_f32());
             }

@@ -305,15 +305,22 @@ fn a_threshold_is_that_of_the_nearest_systems() {
     assert_eq!(threshold_of_mass(&problems, &|problem| !is_other(problem)), None);
 }
 
+/// Returns the report on a solver whose first answers are right, and whose second ones are these.
+fn answering_again(again: impl Fn(&Problem) -> Answer) -> Report {
+    let asked = RefCell::new(HashSet::new());
+    run(&default_problems(), |problem| {
+        let is_first = asked.borrow_mut().insert(problem.id.clone());
+        if is_first { right(problem) } else { again(problem) }
+    })
+}
+
 /// A second answer may differ from the first by the tolerance.
 #[test]
 fn the_tolerance_of_a_repeated_answer_is_the_border() {
     let changed = |times: &str| {
-        let asked = RefCell::new(HashSet::new());
-        let report = run(&default_problems(), |problem| {
-            let is_first = asked.borrow_mut().insert(problem.id.clone());
+        let report = answering_again(|problem| {
             let [length, _] = assessment::scales(&problem.system);
-            let off = if is_first { Exact::zero() } else { number(times) * number(TOLERANCE) * length };
+            let off = number(times) * number(TOLERANCE) * length;
             Answer { deflection: right(problem).deflection.map(|u| u + off), ..right(problem) }
         });
         (report.changed.len(), report.repeated)
@@ -404,19 +411,10 @@ fn what_is_carried_over_is_noticed() {
         }
     });
     assert!(!stale.changed.is_empty() && stale.diagnosis.is_empty(), "{:?}", stale.diagnosis);
-    // The first answers are right.
-    let asked = RefCell::new(HashSet::new());
-    let again = run(&default_problems(), |problem| {
-        let is_first = asked.borrow_mut().insert(problem.id.clone());
-        if is_first { right(problem) } else { Answer::new(number("1"), number("1")) }
-    });
+    let again = answering_again(|_| Answer::new(number("1"), number("1")));
     assert_eq!((again.changed.len(), again.summary().wrong), (again.repeated, 0));
     assert!(!again.holds() && again.repeated > 5);
-    let asked = RefCell::new(HashSet::new());
-    let silent = run(&default_problems(), |problem| {
-        let is_first = asked.borrow_mut().insert(problem.id.clone());
-        if is_first { right(problem) } else { Answer { contact_force: None, ..right(problem) } }
-    });
+    let silent = answering_again(|problem| Answer { contact_force: None, ..right(problem) });
     assert_eq!(silent.changed.len(), silent.repeated);
     let rights = run(&default_problems(), right);
     assert!(rights.holds() && rights.changed.is_empty() && rights.repeated == again.repeated);

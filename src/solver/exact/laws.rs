@@ -90,8 +90,8 @@ struct LawChecker<'a, T> {
 impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
     fn of_integers(&self) -> Result<(), LawViolation> {
         for n in [-16_777_216, 0, 1, 2, 3, 16_777_215] {
-            let (number, right) = (T::int(n), Exact::int(n));
-            hold((self.exact)(&number) == right, Law::Integer, || format!("the integer {n}: {number:?}"))?;
+            let right = Exact::int(n);
+            self.is(&T::int(n), &right, Law::Integer, || format!("the integer {n}"))?;
             self.encloses(&E::int(n), &right, Law::Integer, || format!("the enclosure of {n}"))?;
         }
         Ok(())
@@ -102,8 +102,10 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
         hold(number.is_finite(), Law::Finite, || format!("{number:?}, which is {}", written(exact)))?;
         let (zero, right) = (number.is_zero(), exact.is_zero());
         hold(zero == right, Law::Order, || format!("is_zero of {number:?}: {zero}, expected {right}"))?;
-        self.is(&number.positive_part(), &exact.positive_part(), || format!("⟨·⟩ of {number:?}"))?;
-        self.is(&number.abs(), &exact.abs(), || format!("|·| of {number:?}"))?;
+        self.is(&number.positive_part(), &exact.positive_part(), Law::Order, || {
+            format!("⟨·⟩ of {number:?}")
+        })?;
+        self.is(&number.abs(), &exact.abs(), Law::Order, || format!("|·| of {number:?}"))?;
         self.encloses(&number.enclose(), exact, Law::Enclose, || format!("the enclosure of {number:?}"))?;
         let mut product = Exact::one();
         for k in 0..=9 {
@@ -121,7 +123,7 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
         hold(order == Some(right), Law::Order, || {
             format!("{x:?} compared with {y:?}: {order:?}, expected {right:?}")
         })?;
-        self.is(&x.min(y), &PositivePart::min(&a.exact, &b.exact), || format!("{x:?} min {y:?}"))
+        self.is(&x.min(y), &PositivePart::min(&a.exact, &b.exact), Law::Order, || format!("{x:?} min {y:?}"))
     }
 
     fn of_three(&self, a: &Sample<T>, b: &Sample<T>, c: &Sample<T>) -> Result<(), LawViolation> {
@@ -155,8 +157,8 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
         Ok(())
     }
 
-    fn is(&self, found: &T, right: &Exact, by: impl Fn() -> String) -> Result<(), LawViolation> {
-        hold((self.exact)(found) == *right, Law::Order, || {
+    fn is(&self, found: &T, right: &Exact, law: Law, by: impl Fn() -> String) -> Result<(), LawViolation> {
+        hold((self.exact)(found) == *right, law, || {
             format!("{}: {found:?}, expected {}", by(), written(right))
         })
     }

@@ -87,56 +87,58 @@ fn a_mistake_is_printed_with_its_program() {
     assert!(said.contains(text) && said.contains(", then u = 1 m, N = 2 N."), "{said}");
 }
 
+const UNEXPLAINED: &str = "No single mistake that is searched for explains";
+
 /// Two mistakes at once, which are not searched for: 2 m g c instead of m g / c.
 #[test]
 fn what_nothing_explains_is_said() {
-    let text = "No single mistake that is searched for explains the wrong answers.";
     let twice = report(&all(), |Problem { system, .. }| {
         let weight = &system.m * &system.g;
         let u = (&weight * &system.c * number("2")).min(&system.h - &system.l);
         let force = (weight - &system.c * &u).max(number("0"));
         Answer::new(u, force)
     });
-    assert!(twice.summary().wrong > 0 && said(&twice).ends_with(text), "{}", said(&twice));
-    assert!(!said(&report(&all(), right)).contains(text));
+    let text = format!("{UNEXPLAINED} the wrong answers.");
+    assert!(twice.summary().wrong > 0 && said(&twice).ends_with(&text), "{}", said(&twice));
+    assert!(!said(&report(&all(), right)).contains(UNEXPLAINED));
     let invalid =
         check(&all(), &number("1e-6"), |_| Ok::<_, Infallible>(Reply::InvalidResponse("no key".into())));
-    assert!(!said(&invalid.expect("no failure")).contains(text), "the example says what is wrong");
+    assert!(!said(&invalid.expect("no failure")).contains(UNEXPLAINED), "the example says what is wrong");
 }
 
-/// Returns a wrong answer that no single mistake explains.
-fn twice_wrong(problem: &Problem) -> Answer {
-    let Answer { deflection, contact_force, .. } = right(problem);
-    let random = |x: Option<Exact>| x.map(|x| x * number("1.5") + &problem.system.h * &problem.system.m);
-    Answer { deflection: random(deflection), contact_force: random(contact_force), ..Answer::default() }
+/// Returns a report on a solver with wrong answers that no single mistake explains, where a condition holds.
+fn twice_wrong_where(problems: &[Problem], is_wrong: impl Fn(&SpringMass<Exact>) -> bool) -> Report {
+    report(problems, |problem| {
+        let (exact, system) = (problem.solution(), &problem.system);
+        let [u, n] = [exact.deflection, exact.contact_force];
+        match is_wrong(system) {
+            true => Answer::new(
+                u * number("1.5") + &system.h * &system.m,
+                n * number("1.5") + &system.h * &system.m,
+            ),
+            false => Answer::new(u, n),
+        }
+    })
 }
 
-const UNEXPLAINED: &str = "No single mistake that is searched for explains";
+fn is_stiff(system: &SpringMass<Exact>) -> bool {
+    system.c > number("1000")
+}
 
 #[test]
 fn a_condition_is_described_by_a_state_or_by_each_quantity_that_fits() {
-    let in_contact = report(&all(), |problem| {
-        let touches = system::reaction(&problem.system) > number("0");
-        if touches { twice_wrong(problem) } else { right(problem) }
-    });
+    let in_contact = twice_wrong_where(&all(), |system| system::reaction(system) > number("0"));
     let count = in_contact.summary().wrong;
     let text = format!("The {count} wrong answers are to all {count} systems in contact. ");
     let said_of = said(&in_contact) + " ";
     assert!(said_of.contains(&text) && !said_of.contains(UNEXPLAINED), "{said_of}");
 
-    let is_stiff = |system: &SpringMass<Exact>| system.c > number("1000");
-    let of_stiff =
-        |problems: &[Problem]| {
-            said(&report(problems, |problem| {
-                if is_stiff(&problem.system) { twice_wrong(problem) } else { right(problem) }
-            }))
-        };
     let more = "More cases may tell which of these matters.";
-    let one = of_stiff(&all());
+    let one = said(&twice_wrong_where(&all(), is_stiff));
     assert!(one.contains("systems with c from ") && !one.contains(more), "{one}");
     let mut alike = all();
     alike.retain(|problem| is_stiff(&problem.system) == (problem.system.m > number("2")));
-    let several = of_stiff(&alike);
+    let several = said(&twice_wrong_where(&alike, is_stiff));
     assert!(several.contains(", or ") && several.contains(more), "{several}");
 }
 
