@@ -328,6 +328,7 @@ pub fn capture(print: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::{Value, json};
 
     #[test]
     fn lines_end_before_a_page_does_but_not_at_glue() {
@@ -351,6 +352,21 @@ mod tests {
         let nines = |n| "9".repeat(n);
         let broken = format!("a {}\n  {}\n  {}\n", nines(78), nines(78), nines(34));
         assert_eq!(capture(|out| wrapped(out, "", 2, &format!("a {}", nines(190)))), broken);
+    }
+
+    /// Arrays and objects are on one line from the eighth on, also after others.
+    #[test]
+    fn only_deeply_nested_values_are_on_one_line() {
+        let nest: [fn(Value) -> Value; 2] = [|inner| json!([inner, 2]), |inner| json!({"a": inner, "b": 2})];
+        for (nest, line) in nest.into_iter().zip(["[[1,2],2],", r#""a": {"a":{"a":1,"b":2},"b":2},"#]) {
+            let shallow = json!(vec![nest(json!(1)); 9]);
+            let text = capture(|out| super::json(out, &shallow));
+            assert_eq!(text, serde_json::to_string_pretty(&shallow).unwrap() + "\n");
+            let deep = (0..9).fold(json!(1), |inner, _| nest(inner));
+            let text = capture(|out| super::json(out, &deep));
+            assert_eq!(text.lines().filter(|text| text.trim() == line).count(), 1, "{text}");
+            assert_eq!(text.lines().count(), 7 + 1 + 7 + 7, "{text}");
+        }
     }
 
     /// A line has room for the backslash; a longer number continues in the next line.

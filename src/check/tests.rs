@@ -1,6 +1,7 @@
 //! Tests that wrong solvers are detected and distinguished.
 
 mod diagnosed;
+mod explained;
 mod judged;
 
 use super::program::{Constants, Mistake, edits, numbers, value};
@@ -65,6 +66,36 @@ fn answer(mistake: &Mistake, problem: &Problem, penalty: Option<&Exact>, factor:
 fn right(problem: &Problem) -> Answer {
     let exact = problem.solution();
     Answer::new(exact.deflection, exact.contact_force)
+}
+
+/// Returns the names of what explains the answers, with those of the same results.
+fn names(report: &Report) -> Vec<&str> {
+    let named = report.fitting().flat_map(|found| [&found.name].into_iter().chain(&found.equivalent));
+    named.map(String::as_str).collect()
+}
+
+/// Returns u and N in equilibrium for N (N − R) = k/100.
+fn on_curve(problem: &Problem, k: &Exact) -> [Exact; 2] {
+    let system = problem.system.try_map(Exact::to_f64).unwrap();
+    let (r, k) = (system::reaction(&system), k.to_f64().unwrap() / 100.0);
+    let root = (r * r + 4.0 * k).sqrt();
+    let n = if r > 0.0 { (r + root) / 2.0 } else { 2.0 * k / (root - r) };
+    let n = n.to_exact().unwrap();
+    let u = (system::weight(&problem.system) - &n) / &problem.system.c;
+    [u.to_f64().unwrap().to_exact().unwrap(), n]
+}
+
+fn rounded(x: &Exact, digits: usize) -> Exact {
+    number(&x.decimal(digits, Round::Nearest))
+}
+
+/// Returns a report on answers that are all changed in the same way.
+fn changed_in(problems: &[Problem], change: impl Fn(&Problem, Exact, Exact) -> [Exact; 2]) -> Report {
+    run(problems, |problem| {
+        let exact = problem.solution();
+        let [u, n] = change(problem, exact.deflection, exact.contact_force);
+        Answer::new(u, n)
+    })
 }
 
 #[test]

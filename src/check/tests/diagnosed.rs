@@ -4,23 +4,9 @@ use super::*;
 use crate::check::diagnosis::values;
 use std::cell::RefCell;
 
-/// Returns the names of what explains the answers, with those of the same results.
-fn names(report: &Report) -> Vec<&str> {
-    let named = report.fitting().flat_map(|found| [&found.name].into_iter().chain(&found.equivalent));
-    named.map(String::as_str).collect()
-}
-
-/// Returns a report on answers that are all changed in the same way.
+/// Returns that on the default problems.
 fn changed(change: impl Fn(&Problem, Exact, Exact) -> [Exact; 2]) -> Report {
     changed_in(&default_problems(), change)
-}
-
-fn changed_in(problems: &[Problem], change: impl Fn(&Problem, Exact, Exact) -> [Exact; 2]) -> Report {
-    run(problems, |problem| {
-        let exact = problem.solution();
-        let [u, n] = change(problem, exact.deflection, exact.contact_force);
-        Answer::new(u, n)
-    })
 }
 
 /// Returns the results of an edit in f64, as of a program that parses the decimals of a request.
@@ -142,10 +128,6 @@ fn every_number_is_found() {
 /// u and N, from those of the right solution.
 type Change = fn(&Problem, Exact, Exact) -> [Exact; 2];
 
-fn rounded(x: &Exact, digits: usize) -> Exact {
-    number(&x.decimal(digits, Round::Nearest))
-}
-
 /// Returns the right answer for other lengths.
 fn with_lengths(problem: &Problem, change: impl Fn(&Exact) -> Exact) -> [Exact; 2] {
     let [l, h] = [&problem.system.l, &problem.system.h].map(change);
@@ -203,17 +185,6 @@ fn each_kind_of_mistake_has_its_name() {
         assert_eq!(names(&report).first(), Some(&name), "{:?}", report.diagnosis);
         assert!(!report.holds() && report.conditions.is_empty(), "{name}");
     }
-}
-
-/// Returns u and N in equilibrium for N (N − R) = k/100.
-fn on_curve(problem: &Problem, k: &Exact) -> [Exact; 2] {
-    let system = problem.system.try_map(Exact::to_f64).unwrap();
-    let (r, k) = (system::reaction(&system), k.to_f64().unwrap() / 100.0);
-    let root = (r * r + 4.0 * k).sqrt();
-    let n = if r > 0.0 { (r + root) / 2.0 } else { 2.0 * k / (root - r) };
-    let n = n.to_exact().unwrap();
-    let u = (system::weight(&problem.system) - &n) / &problem.system.c;
-    [u.to_f64().unwrap().to_exact().unwrap(), n]
 }
 
 /// Returns the answers of a solver that decides wrongly for some systems in a state.
