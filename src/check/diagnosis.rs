@@ -51,7 +51,7 @@ pub struct Diagnosis {
 /// chance, and one determines a number.
 pub(super) const INFORMATIVE: usize = 3;
 
-/// Number of wrong answers from which an unknown number is computed, with errors of all sizes.
+/// Number of wrong answers, of all families, from which an unknown number is computed.
 const SAMPLES: usize = 40;
 
 /// A reason for wrong answers.
@@ -199,8 +199,7 @@ impl<'a> Search<'a> {
 
     /// Returns the mistakes with a number k that explains all answers.
     fn numbers(&self, answers: &[&Observation]) -> Vec<Cause> {
-        let mut wrong: Vec<_> = answers.iter().copied().filter(|answer| answer.is_wrong()).collect();
-        wrong.sort_by(|a, b| b.error().cmp(&a.error()));
+        let wrong: Vec<_> = answers.iter().copied().filter(|answer| answer.is_wrong()).collect();
         let all = NUMBERS[usize::from(self.by_penalty)].iter();
         distinct(all.filter_map(|mistake| Some((mistake, Some(self.number(mistake, &wrong, answers)?)))))
     }

@@ -84,11 +84,6 @@ impl<'a> Observation<'a> {
         self.numbers()[index].as_ref().map(|number| (number - self.exact(index)).abs())
     }
 
-    /// Returns the larger of the errors of u and N relative to the system.
-    pub fn error(&self) -> Option<&'a Exact> {
-        self.assessment().error()
-    }
-
     /// Returns the penalty that the solver reported, or that of the problem.
     pub fn reported_penalty(&self) -> Option<Exact> {
         self.answer.used.penalty.clone().flatten().or_else(|| self.problem.penalty.clone())
