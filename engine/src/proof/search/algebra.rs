@@ -465,6 +465,54 @@ mod tests {
         assert_eq!(quotient.replace(&Monomial::of(0), &v.into()), quotient);
     }
 
+    /// Sums have the larger of two denominators, one of which divides the other, or else their product.
+    #[test]
+    fn quotients_are_added_and_multiplied() {
+        let [u, v, w] = [0, 1, 2].map(Poly::variable);
+        let vw = &v + &w;
+        for (a, b, of_sum) in [
+            (&v, &v, v.clone()),
+            (&v, &(&v * &vw), &v * &vw),
+            (&(&v * &vw), &vw, &v * &vw),
+            (&v, &vw, &v * &vw),
+        ] {
+            let sum = Ratio::new(u.clone(), a.clone()) + Ratio::new(w.clone(), b.clone());
+            assert_eq!((sum.num() * a * b, sum.den()), ((&u * b + &w * a) * &of_sum, &of_sum));
+        }
+        // A denominator that divides the opposite numerator is cancelled.
+        let product = Ratio::new(&u * &vw, w.clone()) * Ratio::new(u.clone(), vw.clone());
+        assert_eq!((product.num(), product.den()), (&(&u * &u), &w));
+        let replaced =
+            (&u * &u + &u + Poly::constant(3)).replace(&Monomial::of(0), &Ratio::new(v.clone(), w.clone()));
+        assert_eq!(
+            replaced.num() * &w * &w,
+            (&v * &v + &v * &w + Poly::constant(3) * &w * &w) * replaced.den()
+        );
+    }
+
+    #[test]
+    fn numbers_and_exponents_are_recognised() {
+        let [u, v] = [0, 1].map(Poly::variable);
+        let numbers = [Poly::zero(), Poly::constant(3)].map(|of| Ratio::from(of).is_number());
+        assert!(numbers == [true; 2] && !Ratio::from(u.clone()).is_number());
+        assert!(!Ratio::new(Poly::constant(3), u.clone()).is_number());
+        let power = &u + Poly::exponential(v.into());
+        assert_eq!([0, 1].map(|x| power.has_in_exponent(x)), [false, true]);
+    }
+
+    /// A product of 2¹⁰ terms and as many is computed, one with a term more is not.
+    #[test]
+    fn products_have_a_largest_size() {
+        let terms = |count: u16, x: usize| {
+            let power = |n: u16, x: usize| (0..n).fold(Monomial::one(), |m, _| m.times(&Monomial::of(x)));
+            let monomials = (0..count).map(|i| power(i % 64, x).times(&power(i / 64, x + 1)));
+            monomials.map(|m| (m, Number::from(1))).collect::<Poly>()
+        };
+        let [a, b, more] = [terms(1024, 0), terms(1024, 2), terms(1025, 2)];
+        assert!(effort::bounded(|| &a * &b).is_some_and(|product| product.terms().len() == 1 << 20));
+        assert_eq!(effort::bounded(|| &a * &more), None);
+    }
+
     /// Long division requires this order.
     #[test]
     fn multiplication_preserves_the_order_of_monomials() {

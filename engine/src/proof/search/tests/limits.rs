@@ -39,6 +39,20 @@ fn limits_follow_from_degrees() {
     assert!(!proved(before, limit(Tree::one() / (Tree::one() + t() * t()), Tree::zero())));
 }
 
+/// A limit is named, rather than the sign by which a rule might have found it.
+#[test]
+fn a_limit_without_a_rule_is_named() {
+    let [c, t, u] = ["c", "t", "u"].map(x);
+    let bounded = &t / (int(1) + &c * &t);
+    for (hypothesis, of, to) in
+        [(above_zero(c), bounded, 1), (above_zero(t.clone()), &t * (&u * &t).exp(), 0)]
+    {
+        let limit = Proposition::Limit(of.clone(), "t", int(to));
+        let outcome = outcome(vec![above_zero(t.clone()), hypothesis], limit);
+        assert!(matches!(outcome, Err(ProofError::UnknownLimit(_))), "{of}: {outcome:?}");
+    }
+}
+
 #[test]
 fn variables_of_limits_may_have_lower_bounds() {
     let [f, g, h] = ["f", "g", "h"].map(x);

@@ -85,6 +85,9 @@ fn rounding_is_monotone() {
         assert!(!no_less(ordered(&c), apply(&c, near_a), apply(&(&c + int(1)), near_b)), "factors differ");
     }
     assert!(no_less(ordered(&c), -near_b, -near_a) && !no_less(ordered(&c), -near_a, -near_b));
+    let parts = [near_a, near_b].map(|tree| tree.positive_part());
+    assert!(no_less(ordered(&c), parts[0].clone(), parts[1].clone()));
+    assert!(!no_less(ordered(&c), parts[1].clone(), parts[0].clone()));
     assert!(no_less(ordered(&-&c), &b * &c, &a * &c) && !no_less(ordered(&-&c), &a * &c, &b * &c));
     assert!(!no_less(ordered(&(&c * &c)), &a * &c, &b * &c));
     // Both terms of a sum are compared, and a divisor must not be 0.
