@@ -273,8 +273,8 @@ impl<'a> Attempt<'a> {
         let known = Knowledge::new(self.problem);
         leaf.orders = self.orders();
         let is_ordered = !leaf.orders.is_empty();
-        let (early, sizes, failure, required) = Default::default();
-        Search { known, early, leaf, sizes, is_ordered, position: 0, failure, required }
+        let (sizes, failure, required) = Default::default();
+        Search { known, leaf, sizes, is_ordered, position: 0, failure, required }
     }
 
     /// Lets the reader check the goal, and lists the hypotheses that it uses.
@@ -285,9 +285,6 @@ impl<'a> Attempt<'a> {
         for (position, i) in order.iter().enumerate() {
             reader.source.follow(position, decisions);
             let hypothesis = self.problem.hypotheses[*i];
-            if reader.source.early.is_none() && self.mentions_variable(hypothesis) {
-                reader.source.early = Some(reader.source.known.clone());
-            }
             let interval = hypothesis.interval();
             if let Some((x, ..)) = interval
                 && !reader.source.known.context.is_free(self.problem.table.variable(Atom::Own(x))?)

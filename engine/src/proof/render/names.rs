@@ -88,7 +88,7 @@ impl ProofPrinter<'_> {
                 let value = value.unwrap_or_else(|| self.text(&hypothesis.value));
                 Some(format!("{} = {value} {} 0", symbol.name(), hypothesis.relation))
             }
-            AssumptionUse::Interval(_, _, parameter) if context.symbol(*parameter) == Some(symbol) => {
+            AssumptionUse::Interval(parameter) if context.symbol(*parameter) == Some(symbol) => {
                 let (x, lower, upper) = assumption.hypothesis.as_ref()?.interval()?;
                 let (name, lower, upper) = (symbol.name(), self.text(lower), self.text(upper));
                 Some(format!("{name} goes from −1 to 1 as {x} goes from {lower} to {upper}"))

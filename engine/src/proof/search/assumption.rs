@@ -35,8 +35,8 @@ pub enum AssumptionUse {
     Variable(usize),
     /// A pivot, its value, and the slack variable for the quantity, unless that is 0.
     Pivot(Monomial, Ratio, Option<usize>),
-    /// A symbol, its value in its interval, and the interval parameter between −1 and 1.
-    Interval(usize, Ratio, usize),
+    /// A symbol is replaced by its value in an interval, with this parameter between −1 and 1.
+    Interval(usize),
     /// The absolute value of the quantity is a variable `size`, and the quantity is the product of it and a
     /// variable between −1 and 1.
     Size {

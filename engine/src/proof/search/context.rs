@@ -223,17 +223,15 @@ impl Context {
         let [middle, reach] = [upper + lower, upper - lower].map(|sum| self.reduce(&(sum * &half)));
         let quantity = Ratio::from(Poly::variable(x));
         let used = match self.next_symbol(Symbol::IntervalParameter) {
-            Some(symbol)
-                if self.is_free(x) && !middle.variables().contains(&x) && !reach.variables().contains(&x) =>
-            {
-                let by = &middle + reach * Ratio::from(Poly::variable(parameter));
+            Some(symbol) => {
+                let by = middle + reach * Ratio::from(Poly::variable(parameter));
                 let sign = self.signs.set(x, None);
                 self.retained.extend(sign.map(|sign| (quantity.clone(), sign)));
-                self.replace(Monomial::of(x), by.clone());
+                self.replace(Monomial::of(x), by);
                 self.symbols.insert(parameter, symbol);
-                AssumptionUse::Interval(x, by, parameter)
+                AssumptionUse::Interval(parameter)
             }
-            _ => AssumptionUse::Unused,
+            None => AssumptionUse::Unused,
         };
         let hypothesis = Some(hypothesis.clone());
         self.assumptions.push(Assumption { hypothesis, value: quantity, divisor: None, usage: used });

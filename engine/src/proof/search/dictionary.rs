@@ -6,7 +6,7 @@
 
 use super::algebra::{Monomial, Number, Poly, Ratio};
 use super::knowledge::Knowledge;
-use crate::proof::check::{Atom, Polynomial, Quotient, State};
+use crate::proof::check::{Polynomial, Quotient, State};
 use rug::Rational;
 
 /// Maximum power of an exponential that is recognised.
@@ -22,23 +22,15 @@ impl Knowledge<'_> {
     /// Returns a polynomial of the checker, with exponentials as such.
     pub fn poly(&self, of: &Polynomial, state: &State) -> Poly {
         let poly = opaque(of);
-        if of.has_only(|x| !self.is_exponential(x)) {
-            return poly;
-        }
         let terms = poly.terms().flat_map(|(m, q)| {
-            let rest = Poly::from_iter([(m.only(|x| !self.is_exponential(x)), q.clone())]);
-            let exponentials = m.powers().filter(|(x, _)| self.is_exponential(*x));
-            let term = exponentials.fold(rest, |term, (x, n)| term * self.exponential_power(x, n, state));
+            let number = Poly::constant(q.clone());
+            let term = m.powers().fold(number, |term, (x, n)| term * self.power(x, n, state));
             term.terms().map(|(m, q)| (m.clone(), q.clone())).collect::<Vec<_>>()
         });
         terms.collect()
     }
 
-    fn is_exponential(&self, x: usize) -> bool {
-        matches!(self.problem.table.atoms().get(x), Some(Atom::Exponential(_)))
-    }
-
-    fn exponential_power(&self, x: usize, n: u8, state: &State) -> Poly {
+    fn power(&self, x: usize, n: u8, state: &State) -> Poly {
         let exponent = state.exponent(x).map(|exponent| self.ratio(exponent, state));
         let factor = exponent.map_or_else(|| Poly::variable(x), Poly::exponential);
         (0..n).fold(Poly::constant(1), |power, _| power * &factor)

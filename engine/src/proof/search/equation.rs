@@ -50,13 +50,6 @@ impl Equation {
 
     fn eliminate(&self, of: &Poly) -> Option<Eliminated> {
         let (coefficient, rest) = self.solved()?;
-        if let Some(x) = self.pivot().as_variable()
-            && let Some((_, number)) = coefficient.terms().next()
-            && Ratio::from(coefficient.clone()).is_number()
-            && !of.has_exponentials()
-        {
-            return Some(divided(of, x, &Poly::constant(number.recip()), &rest));
-        }
         let by = Ratio::from(-rest).checked_div(&coefficient.clone().into())?;
         let replaced = Ratio::from(of.clone()).replace(self.pivot(), &by);
         self.eliminated(of, replaced.den().clone(), replaced.num().clone()).or_else(|| {
@@ -79,20 +72,9 @@ impl Equation {
 fn without_common_factor(left: Poly, right: Poly) -> (Poly, Poly) {
     let factor = Poly::from(left.common_monomial().common(&right.common_monomial()));
     match (left.checked_div(&factor), right.checked_div(&factor)) {
-        (Some(left), Some(right)) if !right.is_zero() => (left, right),
+        (Some(left), Some(right)) => (left, right),
         _ => (left, right),
     }
-}
-
-/// Divides a polynomial by a x + b for a number a, by the powers of x as in Horner's scheme.
-fn divided(of: &Poly, x: usize, inverse: &Poly, rest: &Poly) -> Eliminated {
-    let root = -(rest * inverse);
-    let (mut sum, mut multiple) = (Poly::zero(), Poly::zero());
-    for n in (0..=of.degree(x)).rev() {
-        multiple = multiple * Poly::variable(x) + &sum;
-        sum = sum * &root + of.coefficient(x, n);
-    }
-    Eliminated { rest: sum, power: Poly::constant(1), multiple: multiple * inverse }
 }
 
 impl Finder<'_, '_> {
@@ -102,11 +84,7 @@ impl Finder<'_, '_> {
         let right = self.guide.without_exponentials(form.num(), self.state).ok_or("an exponential")?;
         let (left, right) = without_common_factor(left, right);
         let (mut left, mut right) = integral(&left, &right);
-        let found = self.finished(&left, &right);
-        if !self.guide.has_equations() && self.state.exponents.is_empty() {
-            return found;
-        }
-        let found = found?;
+        let found = self.finished(&left, &right)?;
         let difference = self.state.difference(of, &found)?;
         if difference.is_zero() {
             return Ok(found);
@@ -169,7 +147,7 @@ impl Finder<'_, '_> {
     fn vanishing(&mut self, mut difference: Poly, left: &mut Poly, right: &mut Poly) -> Result<Poly> {
         let mut equations = self.equations()?;
         let mut found = Poly::zero();
-        while !equations.is_empty() && !difference.is_zero() {
+        while !equations.is_empty() {
             let equation = equations.remove(0);
             let Some(Eliminated { rest, power, multiple }) = equation.eliminate(&difference) else {
                 continue;

@@ -6,7 +6,7 @@ use super::assumption::{AssumptionUse, SignedRatio};
 use super::dictionary::opaque;
 use super::error::Symbol;
 use super::knowledge::{AssumedFact, Knowledge};
-use crate::proof::check::{Certificate, Known, MAX_VARIABLES, Polynomial, Sign, State};
+use crate::proof::check::{Certificate, Known, MAX_VARIABLES, Polynomial, State};
 
 /// Maximum nesting of lemmas.
 const MAX_DEPTH: u32 = 4;
@@ -42,10 +42,7 @@ impl<'a, 'p> Finder<'a, 'p> {
     /// Returns a certificate for a multiple, or divisor, of a fact about an order of rounded formulas.
     pub fn by_order(guide: &'a Knowledge<'a>, of: &Polynomial, state: &'a State<'p>) -> Option<Certificate> {
         let value = guide.poly(of, state);
-        for (i, (fact, sign)) in state.facts.iter().enumerate().rev() {
-            if fact.terms().len() < 2 || *sign == Sign::Zero {
-                continue;
-            }
+        for (i, (fact, _)) in state.facts.iter().enumerate().rev() {
             let fact = guide.poly(fact, state);
             let (quotient, is_multiple) = match value.checked_div(&fact) {
                 Some(quotient) => (quotient, true),

@@ -21,7 +21,6 @@ impl Finder<'_, '_> {
         let (den, rest) = self.cancelled(signed.den.of(), facts);
         let (left_of_den, right_of_den) = match self.by_largest_errors(&den) {
             Some(forms) => forms,
-            None if den == *signed.den.of() => self.forms(&signed.den)?,
             None => {
                 let den = choice::sign(&den, &self.guide.context.signs);
                 self.forms(&den.ok_or("the sign of a denominator")?)?
@@ -53,9 +52,6 @@ impl Finder<'_, '_> {
 
     /// Returns the forms of a denominator by lemmas about its factors 2ᵖ + 1 + e.
     fn by_largest_errors(&mut self, of: &Poly) -> Option<Forms> {
-        if of.terms().len() < 3 || self.guide.context.errors(of).is_empty() {
-            return None;
-        }
         let original = self.guide.original(&of.clone().into());
         let (rest, product) = self.without_largest_errors(original.num()).ok()?;
         if product.is_one() || !original.den().is_one() {
@@ -159,9 +155,6 @@ impl Finder<'_, '_> {
     /// Returns the quotient of a value and a fact if it is one of single terms.
     fn scale(&self, original: &Ratio, fact: usize) -> Option<Ratio> {
         let (fact, _) = self.state.facts.get(fact).ok()?;
-        if fact.terms().len() < 2 {
-            return None;
-        }
         let fact = opaque(fact);
         let scale = if original.num().has_exponentials() {
             let num = self.guide.without_exponentials(original.num(), self.state)?;

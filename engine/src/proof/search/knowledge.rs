@@ -1,6 +1,6 @@
 //! The knowledge of a search: assumptions with the facts of the checker.
 
-use super::algebra::{Monomial, Poly, Ratio};
+use super::algebra::{Poly, Ratio};
 use super::assumption::{AssumptionUse, SignedRatio};
 use super::choice;
 use super::context::Context;
@@ -81,18 +81,9 @@ impl<'a> Knowledge<'a> {
     /// Records the fact of the last assumption.
     fn record(&mut self, fact: Option<AssumedFact>) {
         let Some(last) = self.context.assumptions.last() else { return };
-        match &last.usage {
-            AssumptionUse::Pivot(_, _, Some(slack)) => {
-                let value = (*slack, self.original(&last.slack_value()));
-                self.slacks.push(value);
-            }
-            AssumptionUse::Interval(x, by, _) => {
-                let (x, by) = (Monomial::of(*x), self.original(by));
-                for (_, value) in &mut self.slacks {
-                    *value = value.replace(&x, &by);
-                }
-            }
-            _ => {}
+        if let AssumptionUse::Pivot(_, _, Some(slack)) = &last.usage {
+            let value = (*slack, self.original(&last.slack_value()));
+            self.slacks.push(value);
         }
         self.facts.resize(self.context.assumptions.len() - 1, None);
         self.facts.push(fact);
@@ -125,13 +116,6 @@ impl<'a> Knowledge<'a> {
                 Ok(())
             }
         }
-    }
-
-    /// Returns `true` if identities may rest on equations: of hypotheses, or of absolute values.
-    pub fn has_equations(&self) -> bool {
-        self.context.assumptions.iter().any(|assumption| {
-            matches!(assumption.usage, AssumptionUse::Pivot(_, _, None) | AssumptionUse::Size { .. })
-        })
     }
 
     /// Returns the fact of a retained quantity.

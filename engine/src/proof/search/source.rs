@@ -2,7 +2,6 @@
 
 use super::ProofError;
 use super::algebra::{Poly, Ratio};
-use super::assumption::SignedRatio;
 use super::dictionary::opaque;
 use super::error::Symbol;
 use super::finder::{Finder, Result};
@@ -13,16 +12,14 @@ use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::statement::Proposition;
 use crate::number::Tree;
 use crate::proof::check::{
-    AbsoluteValue, Atom, Certificate, Leaf, Polynomial, Problem, Question, Quotient, Reason, Refusal, Same,
-    Sign, Source, State,
+    AbsoluteValue, Atom, Leaf, Polynomial, Problem, Question, Quotient, Reason, Refusal, Same, Sign, Source,
+    State,
 };
 
 /// A search for what a leaf lists.
 pub struct Search<'a> {
     /// The knowledge so far.
     pub known: Knowledge<'a>,
-    /// The knowledge before the first hypothesis on the variable of a limit.
-    pub early: Option<Knowledge<'a>>,
     /// The lists so far.
     pub leaf: Leaf,
     /// The absolute values that were replaced, each with the number of hypotheses before it.
@@ -70,7 +67,7 @@ impl Search<'_> {
             None => self.suffices(question, signed.sign()),
         });
         if let Some(signed) = signed {
-            return self.certificate(question.of, &[], &signed, state).map(Reason::Certificate);
+            return Finder::find(&self.known, question.of, &[], &signed, state).map(Reason::Certificate);
         }
         if let Some((i, _)) = fact {
             return Ok(Reason::Fact(i));
@@ -92,7 +89,7 @@ impl Search<'_> {
                 ProofError::UnknownSign(value).into()
             });
         };
-        self.certificate(question.of, question.den, &signed, state).map(Reason::Certificate)
+        Finder::find(&self.known, question.of, question.den, &signed, state).map(Reason::Certificate)
     }
 
     /// Returns `true` if no other sign of a polynomial would prove more.
@@ -102,23 +99,6 @@ impl Search<'_> {
             _ => question.decides,
         };
         is_definite(sign) || (is_weak && question.is_sum)
-    }
-
-    fn certificate(
-        &self,
-        of: &Polynomial,
-        den: &[usize],
-        signed: &SignedRatio,
-        state: &State,
-    ) -> Result<Certificate> {
-        let found = Finder::find(&self.known, of, den, signed, state);
-        match &self.early {
-            Some(early) if !found.as_ref().is_ok_and(|found| state.certify(of, found).is_ok()) => {
-                let signed = early.sign(early.reduced(of, state)).ok_or("a sign that is known early")?;
-                Finder::find(early, of, &[], &signed, state)
-            }
-            _ => found,
-        }
     }
 
     /// Returns the factors of a divisor: symbols, known facts, errors 2ᵖ + 1 + e, and the rest.
@@ -171,10 +151,6 @@ impl Search<'_> {
         }
         let mut reduced = None;
         for (i, known) in state.rounded.iter().enumerate() {
-            // Equal values contain the same errors, unless one cancels; equality is then not recognised.
-            if !self.has_same_errors(&known.value, value) {
-                continue;
-            }
             let (unscaled, scale) = reduced
                 .get_or_insert_with(|| self.without_scales(&self.known.reduced_quotient(value, state)));
             let (other, before) = self.without_scales(&self.known.reduced_quotient(&known.value, state));
@@ -187,13 +163,6 @@ impl Search<'_> {
             return Ok(Some(Same { rounding: i, up, down }));
         }
         Ok(None)
-    }
-
-    /// Returns `true` if the numerators of two quotients contain the same rounding errors.
-    fn has_same_errors(&self, a: &Quotient, b: &Quotient) -> bool {
-        let atoms = self.problem().table.atoms();
-        let mut errors = (0..atoms.len()).filter(|x| matches!(atoms[*x], Atom::Error(_)));
-        errors.all(|x| a.num.has_only(|y| y != x) == b.num.has_only(|y| y != x))
     }
 
     /// Splits a quotient into a factor without powers of two and a product of powers of two.
@@ -262,10 +231,10 @@ impl Knowledge<'_> {
     }
 }
 
-/// Returns the number and sign of the fact about this polynomial, of a strict one if there is one.
+/// Returns the number and sign of the first fact about this polynomial.
 fn known_fact(of: &Polynomial, state: &State) -> Option<(usize, Sign)> {
-    let facts = state.facts.iter().enumerate().filter(|(_, (known, _))| known == of);
-    facts.min_by_key(|(_, (_, sign))| !is_definite(*sign)).map(|(i, (_, sign))| (i, *sign))
+    let (i, (_, sign)) = state.facts.iter().enumerate().find(|(_, (known, _))| known == of)?;
+    Some((i, *sign))
 }
 
 /// Returns `true` if no other sign implies this one.

@@ -263,6 +263,15 @@ fn intervals_bound_their_quantity() {
     let small = || Proposition::Sign(Relation::NonNegative, int(1) - &q);
     assert!(proved(vec![narrow.clone(), wide.clone()], small()));
     assert!(!proved(vec![wide], small()));
+    // An interval whose ends depend on q, or of a quantity that is replaced, does not disturb a proof.
+    for q_is in [
+        vec![above_zero(x("u") - &q), Hypothesis::between(&q, x("u") - int(1), x("u") + int(1))],
+        vec![Hypothesis::new(Relation::Zero, &q - x("u")), Hypothesis::between(&q, int(-1), int(1))],
+    ] {
+        let hypotheses = [q_is, stiffness()].concat();
+        assert!(proved(hypotheses.clone(), Proposition::Sign(Relation::Positive, x("c"))));
+        assert!(!proved(hypotheses, small()));
+    }
     // (1 − q)(u − 0) ≥ 0 has the form of an interval but does not bound q.
     let other = not_below_zero((int(1) - &q) * (x("u") - int(0)));
     assert!(!proved(vec![other], small()));
@@ -328,4 +337,35 @@ fn statements_and_proofs_of_excessive_size_are_rejected() {
     assert!(proved(positive.clone(), Proposition::Sign(Relation::Positive, positive_parts)));
     let roundings = Proposition::Sign(Relation::Positive, chains(|tree| tree.round()));
     assert!(matches!(outcome(positive, roundings), Err(ProofError::Premise(Premise::TooManyRoundings))));
+}
+
+/// More absolute values than cases may be nested: |a − b| is |b − a|.
+#[test]
+fn opposite_quantities_have_the_same_absolute_value() {
+    let pairs = [("a", "b"), ("c", "d"), ("u", "v"), ("w", "y"), ("z", "H")];
+    let sizes = |of: fn(Tree, Tree) -> Tree| {
+        let all = pairs[..MAX_NESTED_CASES + 1].iter().map(|(a, b)| of(x(a), x(b)).abs());
+        all.fold(int(0), |sum, size| sum + size)
+    };
+    let [one, other] = [sizes(|a, b| a - b), sizes(|a, b| b - a)];
+    assert!(proved(vec![], Proposition::Equal(one.clone(), other.clone())));
+    assert!(!proved(vec![], Proposition::Equal(one, other + int(1))));
+}
+
+/// Each divisor is positive by its slope.
+#[test]
+fn functions_with_the_sign_of_their_slopes_are_limited() {
+    let names = ["a", "b", "c", "d", "u"];
+    let outcome = |count: usize| {
+        let divisors = names[..count].iter().map(|name| x(name).exp() - x(name) - int(1));
+        let sum = divisors.fold(int(0), |sum, divisor| sum + int(1) / divisor);
+        let positive = names.map(|name| above_zero(x(name))).to_vec();
+        outcome(positive, Proposition::Equal(sum.clone(), sum)).map(drop)
+    };
+    assert!(outcome(MAX_RISES).is_ok());
+    let refused = outcome(MAX_RISES + 1);
+    assert!(
+        matches!(refused, Err(ProofError::NotExpressed(said)) if said.contains("too many")),
+        "{refused:?}"
+    );
 }
