@@ -375,7 +375,7 @@ fn changes_of_last(tree: &Tree, known: &[&str]) -> Vec<Tree> {
 }
 
 /// Returns the right programs: each as it is written in the chapter, and as others write it.
-fn references(by_penalty: bool) -> Vec<Program> {
+pub(super) fn references(by_penalty: bool) -> Vec<Program> {
     let (system, eps) = (&symbols().system, &symbols().eps);
     let (u, p) = (Tree::symbol("u"), Tree::symbol("p"));
     let (gap, reaction) = (("gap", system::gap(system)), ("R", system::reaction(system)));

@@ -3,6 +3,7 @@
 mod diagnosed;
 mod explained;
 mod judged;
+mod programs;
 
 use super::program::{Constants, Mistake, edits, numbers, value};
 use super::*;

@@ -1,5 +1,6 @@
 //! Diagnoses from answers.
 
+use super::programs::hand_written_edits;
 use super::*;
 use crate::check::diagnosis::values;
 use std::cell::RefCell;
@@ -49,57 +50,10 @@ fn every_edit_is_named() {
     assert!(named > 2 * silent, "{named} are named, {silent} change nothing");
 }
 
-/// Formulas for u and N of a person who writes R = m g − c gap.
-type Edit = fn(&SpringMass<Exact>) -> [Exact; 2];
-
-fn if_positive(decides: Exact, [u, n]: [Exact; 2], system: &SpringMass<Exact>) -> [Exact; 2] {
-    if decides > Exact::zero() { [u, n] } else { [structure::deflection(system), Exact::zero()] }
-}
-
-/// Edits of each kind, written by hand: in all uses, in one use, in one state, in the decision, and of parameters.
+/// An edit by hand in all uses, in one use, in one state, in the decision, of a parameter, or of a result.
 #[test]
 fn edits_have_their_names() {
-    let edits: [(&str, Edit); 10] = [
-        ("u = min(g / c, gap) instead of min(m g / c, gap)", |s| {
-            let u = (&s.g / &s.c).min(system::gap(s));
-            let force = system::weight(s) - structure::spring_force(s, &u);
-            [u, force.positive_part()]
-        }),
-        ("R = m g + c gap instead of m g − c gap", |s| {
-            let reaction = system::weight(s) + &s.c * system::gap(s);
-            if_positive(reaction.clone(), [system::gap(s), reaction], s)
-        }),
-        ("in contact u = H + l instead of H − l", |s| {
-            if_positive(system::reaction(s), [&s.h + &s.l, system::reaction(s)], s)
-        }),
-        ("N = ⟨m g − c (H + l)⟩ instead of ⟨m g − c (H − l)⟩", |s| {
-            let reaction = system::weight(s) - &s.c * (&s.h + &s.l);
-            [contact::deflection(s), reaction.positive_part()]
-        }),
-        ("the plane acts if −R > 0 instead of if R > 0", |s| {
-            if_positive(-system::reaction(s), [system::gap(s), system::reaction(s)], s)
-        }),
-        ("in contact N = m − c u instead of m g − c u", |s| {
-            if_positive(system::reaction(s), [system::gap(s), &s.m - &s.c * system::gap(s)], s)
-        }),
-        ("without contact u = m g instead of m g / c", |s| {
-            let apart = [system::weight(s), Exact::zero()];
-            if system::reaction(s) > Exact::zero() { [system::gap(s), system::reaction(s)] } else { apart }
-        }),
-        ("c and m are swapped", |s| {
-            let swapped = SpringMass { c: s.m.clone(), m: s.c.clone(), ..s.clone() };
-            [contact::deflection(&swapped), contact::contact_force(&swapped)]
-        }),
-        ("0 is used for l", |s| {
-            let changed = SpringMass { l: Exact::zero(), ..s.clone() };
-            [contact::deflection(&changed), contact::contact_force(&changed)]
-        }),
-        ("l + u − H is returned as u", |s| {
-            let u = contact::deflection(s);
-            [contact::penetration(s, &u), contact::contact_force(s)]
-        }),
-    ];
-    for (name, edit) in edits {
+    for (name, edit) in hand_written_edits() {
         let report = changed(|problem, _, _| edit(&problem.system));
         assert_eq!(names(&report), [name]);
     }

@@ -103,8 +103,8 @@ fn unsolvable_parameters_explain_nothing() {
     }
 }
 
-/// The constant of a contact law is that of the most accurate answer, the first, the last or another: the force of
-/// one system with a hundred times the forces deviates by a hundredth.
+/// The constant of a contact law is that of the most accurate answer, the first, the last or another. A force deviates
+/// by a hundredth in a system with a hundred times the forces, and another by 10⁻⁶ N for R = −5 N.
 #[test]
 fn a_constant_is_that_of_the_most_accurate_answer() {
     let grazing = |c: &str, by: &str| {
@@ -117,14 +117,18 @@ fn a_constant_is_that_of_the_most_accurate_answer() {
         )
     };
     let accurate =
-        [("100", "0.1"), ("125", "-0.2"), ("160", "0.3"), ("200", "-0.4")].map(|(c, by)| grazing(c, by));
+        [("100", "0.1"), ("125", "-0.2"), ("160", "0.3"), ("200", "-5")].map(|(c, by)| grazing(c, by));
     let large = problem("large", Family::Contact, ["100", "1", "1000", "1", "11"]);
     for place in [0, 2, 4] {
         let mut all = accurate.to_vec();
         all.insert(place, large.clone());
         let report = run(&all, |problem| {
             let [u, n] = on_curve(problem, &number("1"));
-            let off = number(if problem.id == "large" { "0.001" } else { "0" });
+            let off = number(match problem.id.as_str() {
+                "large" => "0.001",
+                "200" => "1e-6",
+                _ => "0",
+            });
             Answer::new(u - &off / &problem.system.c, n + off)
         });
         assert_eq!(names(&report), ["a smoothed corner, N = (R + √(R² + 4 k))/2"]);
@@ -191,4 +195,31 @@ fn a_limit_is_found_from_forces_that_are_near_it() {
     });
     let report = changed_in(&all, |_, u, n| [u, n.min(number("7/3"))]);
     assert!(names(&report).contains(&"N is at most 2.33333 N"), "{:?}", names(&report));
+}
+
+/// Three errors are of a similar size although the scales, 0.15 m times the factors, differ by a thousand.
+#[test]
+fn similar_absolute_errors_of_different_systems_are_a_bound() {
+    let bound = |factors: [&str; 3], errors: [&str; 3]| {
+        let all = [0, 1, 2].map(|i| {
+            let stiffness = number("100") / number(factors[i]);
+            let height = number("1") + number("0.05") * number(factors[i]);
+            let parameters = [&stiffness.to_string(), "1", "10", "1", &height.to_string()];
+            problem(&i.to_string(), Family::Contact, parameters)
+        });
+        // N is wrong in any case.
+        let report = changed_in(&all, |problem, u, n| {
+            [u + number(errors[problem.id.parse::<usize>().unwrap()]), n * number("1.5")]
+        });
+        report.absolute_bounds[0].as_ref().map(|bound| bound.to_string())
+    };
+    let of = |text: &str| Some(number(text).to_string());
+    assert_eq!(bound(["1", "1000", "2000"], ["1e-3", "1e-3", "2e-4"]), None);
+    assert_eq!(bound(["1", "1000", "2000"], ["1e-3", "1e-3", "4e-4"]), of("1e-3"));
+    assert_eq!(bound(["1", "2", "3"], ["1e-3", "1e-3", "1e-3"]), None);
+    assert_eq!(bound(["1", "1000", "1"], ["1e-3", "1e-3", "9.9e-5"]), None);
+    assert_eq!(bound(["1", "1000", "1"], ["1e-3", "1e-3", "1e-4"]), of("1e-3"));
+    // The tolerance of the second is 1.5e-4 m.
+    assert_eq!(bound(["1", "1000", "1"], ["1.5e-4", "1.5e-4", "1.5e-4"]), None);
+    assert_eq!(bound(["1", "1000", "1"], ["1.6e-4", "1.6e-4", "1.6e-4"]), of("1.6e-4"));
 }
