@@ -5,7 +5,7 @@ mod explained;
 mod judged;
 mod programs;
 
-use super::program::{Constants, Mistake, edits, numbers, value};
+use super::program::{Constants, Mistake, Results, edits, numbers, value};
 use super::*;
 use crate::chapter::{SpringMass, augmented, contact, structure, system};
 use crate::number::{Ball, PositivePart, ToExact};
@@ -55,13 +55,13 @@ fn run_within(tolerance: &str, problems: &[Problem], solver: impl Fn(&Problem) -
     check(problems, &number(tolerance), ask).unwrap()
 }
 
-/// Returns the answer of a program with this mistake and these constants.
-fn answer(mistake: &Mistake, problem: &Problem, penalty: Option<&Exact>, factor: Option<&Exact>) -> Answer {
-    let constants = Constants { penalty, factor };
-    let touches = mistake.results.reaction(&problem.system, &constants) > Exact::zero();
-    let [u, n] = mistake.results.of_state(touches);
-    let value = |tree| value(tree, &problem.system, &constants);
-    Answer { deflection: value(u), contact_force: value(n), ..Answer::default() }
+/// Returns the answer of a program with these results and this number k.
+fn answer(results: &Results, problem: &Problem, k: Option<&Exact>) -> Answer {
+    let constants = Constants { penalty: problem.penalty.as_ref(), factor: k };
+    let touches = results.reaction(&problem.system, &constants) > Exact::zero();
+    let [deflection, contact_force] =
+        results.of_state(touches).each_ref().map(|formula| value(formula, &problem.system, &constants));
+    Answer { deflection, contact_force, ..Answer::default() }
 }
 
 fn right(problem: &Problem) -> Answer {
@@ -88,6 +88,14 @@ fn on_curve(problem: &Problem, k: &Exact) -> [Exact; 2] {
 
 fn rounded(x: &Exact, digits: usize) -> Exact {
     number(&x.decimal(digits, Round::Nearest))
+}
+
+/// Returns the right answer for other lengths.
+fn with_lengths(problem: &Problem, change: impl Fn(&Exact) -> Exact) -> [Exact; 2] {
+    let [l, h] = [&problem.system.l, &problem.system.h].map(change);
+    let exact =
+        Problem { system: SpringMass { l, h, ..problem.system.clone() }, ..problem.clone() }.solution();
+    [exact.deflection, exact.contact_force]
 }
 
 /// Returns a report on answers that are all changed in the same way.

@@ -27,7 +27,7 @@ fn in_f64(mistake: &Mistake, problem: &Problem) -> Answer {
 #[test]
 fn every_edit_is_named() {
     let solvers: [fn(&Mistake, &Problem) -> Answer; 2] =
-        [|mistake, problem| answer(mistake, problem, problem.penalty.as_ref(), None), in_f64];
+        [|mistake, problem| answer(&mistake.results, problem, None), in_f64];
     let (mut named, mut silent) = (0, 0);
     for problems in [default_problems(), with_penalties(default_problems())] {
         let all = edits(problems[0].penalty.is_some());
@@ -69,8 +69,7 @@ fn every_number_is_found() {
                 name if name.contains("at most") || name.contains("at least") => "7/3",
                 _ => "1/3",
             });
-            let report =
-                run(&problems, |problem| answer(&mistake, problem, problem.penalty.as_ref(), Some(&k)));
+            let report = run(&problems, |problem| answer(&mistake.results, problem, Some(&k)));
             let name = mistake.name.replace("{k}", &k.decimal(6, Round::Nearest));
             // An output that is wrong by a factor is described as such.
             let is_output = names(&report).iter().all(|name| name.contains("times the right value"));
@@ -81,14 +80,6 @@ fn every_number_is_found() {
 
 /// u and N, from those of the right solution.
 type Change = fn(&Problem, Exact, Exact) -> [Exact; 2];
-
-/// Returns the right answer for other lengths.
-fn with_lengths(problem: &Problem, change: impl Fn(&Exact) -> Exact) -> [Exact; 2] {
-    let [l, h] = [&problem.system.l, &problem.system.h].map(change);
-    let exact =
-        Problem { system: SpringMass { l, h, ..problem.system.clone() }, ..problem.clone() }.solution();
-    [exact.deflection, exact.contact_force]
-}
 
 #[test]
 fn each_kind_of_mistake_has_its_name() {

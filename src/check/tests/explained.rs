@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::check::observation::{Agreement, Observation};
-use crate::check::program::Results;
 use crate::number::Tree;
 
 /// Returns a value that is computed from an answer with its problem.
@@ -166,10 +165,9 @@ fn a_factor_is_that_of_the_largest_force_relative_to_its_system() {
 fn decimals_are_cut_off_exactly() {
     let all = [("4.35", "4.4012"), ("1.15", "1.2034"), ("2.3", "2.3561")]
         .map(|(l, h)| problem(l, Family::Contact, ["100.37", "1", "10", l, h]));
-    let report = run(&all, |problem| {
-        let h =
-            Exact::from((&problem.system.h * number("100")).as_rational().clone().trunc()) / number("100");
-        right(&Problem { system: SpringMass { h, ..problem.system.clone() }, ..problem.clone() })
+    let hundred = number("100");
+    let report = changed_in(&all, |problem, _, _| {
+        with_lengths(problem, |x| Exact::from((x * &hundred).as_rational().clone().trunc()) / &hundred)
     });
     assert_eq!(names(&report), ["l and H are cut off after 2 decimals"]);
 }

@@ -1,7 +1,7 @@
 //! Tests of the right programs, and of wrong ones by their results.
 
 use super::*;
-use crate::check::program::{Results, in_some_answers, references};
+use crate::check::program::{in_some_answers, references};
 
 /// Formulas for u and N of a person who writes R = m g − c gap.
 type Edit = fn(&SpringMass<Exact>) -> [Exact; 2];
@@ -54,17 +54,9 @@ pub fn hand_written_edits() -> [(&'static str, Edit); 10] {
     ]
 }
 
-/// Returns u and N of a program for a problem.
-fn results_of(results: &Results, problem: &Problem, k: Option<&Exact>) -> [Option<Exact>; 2] {
-    let constants = Constants { penalty: problem.penalty.as_ref(), factor: k };
-    let touches = results.reaction(&problem.system, &constants) > Exact::zero();
-    results.of_state(touches).each_ref().map(|formula| value(formula, &problem.system, &constants))
-}
-
-/// Returns the right u and N.
-fn right_results(problem: &Problem) -> [Option<Exact>; 2] {
-    let exact = problem.solution();
-    [Some(exact.deflection), Some(exact.contact_force)]
+fn answer_of(edit: Edit, problem: &Problem) -> Answer {
+    let [u, n] = edit(&problem.system);
+    Answer::new(u, n)
 }
 
 #[test]
@@ -72,8 +64,8 @@ fn references_are_right() {
     for problems in [default_problems(), with_penalties(default_problems())] {
         for program in references(problems[0].penalty.is_some()) {
             for problem in &problems {
-                let found = results_of(&program.results(), problem, None);
-                assert_eq!(found, right_results(problem), "{:?}", program.lines());
+                let found = answer(&program.results(), problem, None);
+                assert_eq!(found, right(problem), "{:?}", program.lines());
             }
         }
     }
@@ -97,9 +89,7 @@ fn edits_change_what_they_say() {
     let (all, problems) = (edits(false), default_problems());
     for (name, edit) in hand_written_edits().into_iter().chain(others) {
         let changes = |mistake: &Mistake| {
-            problems
-                .iter()
-                .all(|problem| results_of(&mistake.results, problem, None) == edit(&problem.system).map(Some))
+            problems.iter().all(|problem| answer(&mistake.results, problem, None) == answer_of(edit, problem))
         };
         // The right programs have results of the same name.
         assert!(all.iter().filter(|mistake| mistake.name == name).any(changes), "{name}");
@@ -121,8 +111,8 @@ fn numbers_change_what_they_say() {
             let parameters = SpringMass::SYMBOLS.zip(problem.system.as_ref());
             let system = parameters
                 .map(|(symbol, x)| if symbols.contains(symbol) { change(x, &k) } else { (*x).clone() });
-            let found = results_of(&mistake.results, &problem, Some(&k));
-            assert_eq!(found, right_results(&Problem { system, ..problem }), "{name}");
+            let found = answer(&mistake.results, &problem, Some(&k));
+            assert_eq!(found, right(&Problem { system, ..problem }), "{name}");
         }
     };
     for x in SpringMass::SYMBOLS.into_array() {
@@ -144,11 +134,7 @@ fn decisions_change_the_state_only() {
     for (name, state) in states {
         let mistake = all.iter().find(|mistake| mistake.name == name).expect(name);
         for problem in default_problems() {
-            assert_eq!(
-                results_of(&mistake.results, &problem, None),
-                state(&problem.system).map(Some),
-                "{name}"
-            );
+            assert_eq!(answer(&mistake.results, &problem, None), answer_of(state, &problem), "{name}");
         }
     }
 }
