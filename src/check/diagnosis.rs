@@ -260,12 +260,13 @@ fn distinct(fitting: impl Iterator<Item = (&'static Mistake, Option<Exact>)>) ->
     found.into_iter().map(|(_, found)| Cause::Program(found)).collect()
 }
 
-/// Returns the values of a mistake for the default systems, with a different penalty for each.
+/// Returns the values of a mistake for the default systems, with another multiple of c as the penalty of each.
 pub(super) fn values(mistake: &Mistake, k: Option<&Exact>) -> Vec<[Option<Exact>; 2]> {
     static SYSTEMS: LazyLock<Vec<Problem>> = LazyLock::new(|| problems(1, CASES, Family::ALL));
     let numbered = SYSTEMS.iter().map(|problem| &problem.system).zip(2..);
-    let values = numbered.map(|(system, penalty)| {
-        let constants = Constants { penalty: Some(&Exact::from(penalty)), factor: k };
+    let values = numbered.map(|(system, multiple)| {
+        let penalty = &system.c * Exact::from(multiple);
+        let constants = Constants { penalty: Some(&penalty), factor: k };
         let touches = mistake.results.reaction(system, &constants) > Exact::zero();
         mistake.results.of_state(touches).each_ref().map(|formula| value(formula, system, &constants))
     });

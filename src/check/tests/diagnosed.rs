@@ -50,6 +50,17 @@ fn every_edit_is_named() {
     assert!(named > 2 * silent, "{named} are named, {silent} change nothing");
 }
 
+/// ⟨·⟩ and |·| of a deflection differ only if it is negative, which requires a penalty of the order of c.
+#[test]
+fn edits_that_differ_for_large_penalties_alone_are_distinct() {
+    let all = edits(true);
+    let [bracket, size] = ["⟨", "|"].map(|sign| {
+        let start = format!("u = min(m g / c, {sign}(ε gap + m g) / (c + ε)");
+        values(all.iter().find(|mistake| mistake.name.starts_with(&start)).unwrap(), None)
+    });
+    assert_ne!(bracket, size);
+}
+
 /// An edit by hand in all uses, in one use, in one state, in the decision, of a parameter, or of a result.
 #[test]
 fn edits_have_their_names() {
