@@ -302,14 +302,6 @@ impl<'a> Attempt<'a> {
             let ends = ends.map(|end| reader.source.known.ratio(&end, &reader.state));
             self.assume(reader, *i)?;
             reader.source.known.assume_interval(*i, x, ends)?;
-            // Hypotheses about the symbol are used again, for its value in the interval.
-            for i in reader.source.leaf.hypotheses.clone() {
-                let earlier = self.problem.hypotheses[i];
-                if earlier.interval().is_none() && earlier.value.symbols().contains(x) {
-                    let fact = self.assume(reader, i)?;
-                    reader.source.known.assume_again(earlier, fact);
-                }
-            }
         }
         reader.source.follow(order.len(), decisions);
         let Leaf { rises, orders, .. } = &reader.source.leaf;
@@ -327,10 +319,17 @@ impl<'a> Attempt<'a> {
         Ok(AssumedFact { fact, den: den.unwrap_or_default(), scale: Poly::constant(1).into() })
     }
 
-    /// Returns the numbers of the hypotheses, those on the variable of a limit last.
+    /// Returns the numbers of the hypotheses: intervals before what mentions their symbols, and those on the
+    /// variable of a limit last.
     fn order(&self) -> Vec<usize> {
-        let mut order: Vec<_> = (0..self.problem.hypotheses.len()).collect();
-        order.sort_by_key(|i| self.mentions_variable(self.problem.hypotheses[*i]));
+        let hypotheses = &self.problem.hypotheses;
+        let bounded: Vec<_> = hypotheses.iter().filter_map(|h| h.interval()).map(|(x, ..)| x).collect();
+        let mut order: Vec<_> = (0..hypotheses.len()).collect();
+        order.sort_by_key(|i| {
+            let (hypothesis, symbols) = (hypotheses[*i], hypotheses[*i].value.symbols());
+            let waits = hypothesis.interval().is_none() && bounded.iter().any(|x| symbols.contains(x));
+            (self.mentions_variable(hypothesis), waits)
+        });
         order
     }
 

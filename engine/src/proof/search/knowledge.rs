@@ -89,15 +89,6 @@ impl<'a> Knowledge<'a> {
         self.facts.push(fact);
     }
 
-    /// Replaces the fact of a hypothesis that is assumed again.
-    pub fn assume_again(&mut self, hypothesis: &Hypothesis, fact: AssumedFact) {
-        let mut assumptions = self.context.assumptions.iter();
-        let index = assumptions.position(|assumption| assumption.hypothesis.as_ref() == Some(hypothesis));
-        if let Some(earlier) = index.and_then(|i| self.facts.get_mut(i)) {
-            *earlier = Some(fact);
-        }
-    }
-
     /// Returns the sign of a reduced quantity if the rules find it.
     pub fn sign(&self, value: Ratio) -> Option<SignedRatio> {
         self.context.sign_by_retained(value, &self.factors)

@@ -263,14 +263,21 @@ fn intervals_bound_their_quantity() {
     let small = || Proposition::Sign(Relation::NonNegative, int(1) - &q);
     assert!(proved(vec![narrow.clone(), wide.clone()], small()));
     assert!(!proved(vec![wide], small()));
-    // An interval whose ends depend on q, or of a quantity that is replaced, does not disturb a proof.
-    for q_is in [
-        vec![above_zero(x("u") - &q), Hypothesis::between(&q, x("u") - int(1), x("u") + int(1))],
-        vec![Hypothesis::new(Relation::Zero, &q - x("u")), Hypothesis::between(&q, int(-1), int(1))],
-    ] {
-        let hypotheses = [q_is, stiffness()].concat();
-        assert!(proved(hypotheses.clone(), Proposition::Sign(Relation::Positive, x("c"))));
-        assert!(!proved(hypotheses, small()));
+    // An interval whose ends depend on q does not disturb a proof.
+    let in_ends = [above_zero(x("u") - &q), Hypothesis::between(&q, x("u") - int(1), x("u") + int(1))];
+    let in_ends = [in_ends.to_vec(), stiffness()].concat();
+    assert!(proved(in_ends.clone(), Proposition::Sign(Relation::Positive, x("c"))));
+    assert!(!proved(in_ends, small()));
+    // In any order, an interval bounds what is compared with its quantity.
+    let unit = || Hypothesis::between(&q, int(0), int(1));
+    let (above, equal) = (above_zero(x("u") - &q), Hypothesis::new(Relation::Zero, x("u") - &q));
+    for hypotheses in [vec![unit(), above.clone()], vec![above, unit()]] {
+        assert!(proved(hypotheses.clone(), Proposition::Sign(Relation::Positive, x("u"))));
+        assert!(!proved(hypotheses, Proposition::Sign(Relation::NonNegative, int(1) - x("u"))));
+    }
+    for hypotheses in [vec![unit(), equal.clone()], vec![equal, unit()]] {
+        assert!(proved(hypotheses.clone(), Proposition::Within(x("u"), int(1))));
+        assert!(!proved(hypotheses, Proposition::Sign(Relation::Positive, x("u"))));
     }
     // (1 − q)(u − 0) ≥ 0 has the form of an interval but does not bound q.
     let other = not_below_zero((int(1) - &q) * (x("u") - int(0)));
