@@ -49,6 +49,27 @@ fn the_coarsest_parameter_determines_the_guarantee() {
     assert!(!advice.recommendations.iter().any(iterates), "{advice}");
 }
 
+/// The coarsest parameter determines the penalties, too, and constants are computed without rounding: R/c = 2¹⁰⁰ m, of
+/// which floats of 20 bits could reach 2⁸⁰ m only.
+#[test]
+fn penalties_have_the_precision_of_the_coarsest_parameter() {
+    let system = SpringMass { c: int(1), m: int(1), g: Exact::power_of_two(100), l: int(1), h: int(1) };
+    let tolerance = int(1).to_mpfr(20);
+    let constants = system.map(|x| Mpfr::constant(x.as_rational().clone()));
+    let mixed = SpringMass { l: int(1).to_mpfr(200), h: int(3).to_mpfr(150), ..constants.clone() };
+    for (system, bits) in [(constants, None), (mixed, Some(150))] {
+        let choices = advise(&system, &tolerance).unwrap().recommendations;
+        let penalties = choices
+            .iter()
+            .flat_map(|choice| choice.penalty_range.iter().flatten().chain(choice.method.penalty()));
+        let precisions: Vec<_> = penalties.map(Mpfr::precision).collect();
+        assert!(
+            precisions.len() >= 4 && precisions.iter().all(|precision| *precision == bits),
+            "{precisions:?}"
+        );
+    }
+}
+
 /// The tolerance is rounded as well and must remain above the floor.
 #[test]
 fn bits_are_needed_for_the_tolerance_as_well() {

@@ -420,8 +420,8 @@ fn advised<T: Number>(bytes: &mut Bytes) {
                 Method::Lagrange => Method::Lagrange,
                 Method::Penalty { .. } => Method::Penalty { penalty: eps.clone() },
                 Method::Augmented { tolerance, max_augmentations, start, .. } => {
-                    // In rationals a thousand steps would be too long.
-                    if T::EXACT {
+                    // In rationals, and in constants of MPFR, a thousand steps would be too long.
+                    if eps.number_system() == NumberSystem::Exact {
                         continue;
                     }
                     Method::Augmented { penalty: eps.clone(), tolerance, max_augmentations, start }

@@ -65,7 +65,7 @@ pub struct Recommendation<T> {
 ///
 /// The laws in [`rounding`](crate::chapter::rounding) determine the penalties for the parameters as
 /// represented in their scalar; each method is then run. A method that is not recommended cannot be
-/// guaranteed.
+/// guaranteed. A penalty has the precision of the coarsest parameter.
 ///
 /// # Errors
 /// Returns the errors of [`solve`], and [`SolveError::Invalid`] if the tolerance is not positive.
@@ -88,17 +88,19 @@ pub fn advise<T: Scalar + ExactText>(system: &SpringMass<T>, tolerance: &T) -> R
     let by_multiplier = solve(system, &Method::Lagrange)?;
     let state = by_multiplier.state;
     let (exact_system, exact_tolerance) = (system.map(exact), exact(tolerance));
-    // The coarsest parameter determines the precision.
+    // The coarsest parameter determines the precision, also that of a recommended penalty.
     let SpringMass { c, m, g, l, h } = system;
-    let eta = [c, m, g, l, h].map(|x| x.number_system().unit_roundoff()).into_iter().max();
-    let eta = eta.expect("five parameters");
+    let coarsest = [c, m, g, l, h].into_iter().max_by_key(|x| x.number_system().unit_roundoff());
+    let coarsest = coarsest.expect("five parameters");
+    let eta = coarsest.number_system().unit_roundoff();
     let floor = rounding_floor(system, Plane::Unilateral, &eta)?;
     let advisor = Advisor {
         system,
         tolerance,
+        coarsest,
         exact_deflection: contact::deflection(&exact_system),
         is_above_floor: floor.as_ref().is_some_and(|floor| exact_tolerance > *floor),
-        arithmetic: match RoundingLaws::new(&exact_system, &eta, &min_normal(tolerance)) {
+        arithmetic: match RoundingLaws::new(&exact_system, &eta, &min_normal(coarsest)) {
             _ if state == State::Separated => Arithmetic::Separated,
             Some(laws) => Arithmetic::Rounded(Box::new(laws)),
             None => Arithmetic::Exact,
@@ -165,6 +167,8 @@ enum Arithmetic {
 struct Advisor<'a, T> {
     system: &'a SpringMass<T>,
     tolerance: &'a T,
+    /// The parameter to whose precision penalties are rounded.
+    coarsest: &'a T,
     exact_system: SpringMass<Exact>,
     exact_tolerance: Exact,
     exact_deflection: Exact,
@@ -238,7 +242,7 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
         method: impl Fn(T) -> Method<T>,
     ) -> Option<Recommendation<T>> {
         // Rounded to nearest, unless the result is too small.
-        let nearest = self.tolerance.round_from_exact(eps).ok()?;
+        let nearest = self.coarsest.round_from_exact(eps).ok()?;
         let eps = if exact(&nearest) > range.min { nearest } else { self.round(eps, Round::Up)? };
         let recommendation = self.run(method(eps.clone()))?;
         // A count replaces the run in rationals, whose length would grow.
@@ -271,7 +275,7 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
 
     /// Rounds into the scalar, up or down; returns `None` out of its range.
     fn round(&self, x: &Exact, direction: Round) -> Option<T> {
-        let (nearest, ordering) = self.tolerance.round_from_exact_with_ordering(x).ok()?;
+        let (nearest, ordering) = self.coarsest.round_from_exact_with_ordering(x).ok()?;
         let [below, above] = nearest.neighbours();
         Some(match (direction, ordering) {
             (Round::Up, Ordering::Less) => above,
@@ -340,6 +344,7 @@ mod tests {
         let advisor = Advisor {
             system: &system,
             tolerance: &tolerance,
+            coarsest: &system.c,
             exact_deflection: contact::deflection(&system),
             is_above_floor: true,
             arithmetic: Arithmetic::Exact,
