@@ -55,6 +55,10 @@ fn text(bytes: &mut Bytes) -> String {
     if bytes.one_in(2) {
         text += &format!("{mark}{}", bytes.bits() as i64 >> (16 + bytes.below(48)));
     }
+    // More digits than any integer type has.
+    if bytes.one_in(64) {
+        text += &"9".repeat(bytes.below(64));
+    }
     text
 }
 
@@ -73,7 +77,7 @@ impl Positional {
         let (number, base, radix, marks) =
             if is_hexadecimal { (&unsigned[2..], 16, 2, ['p', 'P']) } else { (unsigned, 10, 10, ['e', 'E']) };
         let (digits, exponent) = number.split_once(marks).unwrap_or((number, "0"));
-        let exponent = exponent.parse::<i128>().ok()?.clamp(i64::MIN.into(), i64::MAX.into()) as i64;
+        let exponent = nearest_integer(exponent)?;
         let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
         if whole.is_empty() && fraction.is_empty() {
             return None;
@@ -95,6 +99,14 @@ impl Positional {
     fn is(&self, x: &Exact) -> bool {
         x * power(self.radix, -self.exponent) == &self.mantissa * power(self.radix, self.exponent)
     }
+}
+
+/// Returns the integer with these digits, or the nearest that fits.
+fn nearest_integer(text: &str) -> Option<i64> {
+    // Between digits, rug also accepts spaces and underscores.
+    let is_integer = text.trim_start_matches(['+', '-']).bytes().all(|byte| byte.is_ascii_digit());
+    let integer: Integer = if is_integer { text.parse().ok()? } else { return None };
+    Some(integer.to_i64().unwrap_or(if integer < 0 { i64::MIN } else { i64::MAX }))
 }
 
 /// Returns a power; 1 for a negative exponent.
