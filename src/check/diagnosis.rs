@@ -260,17 +260,19 @@ fn distinct(fitting: impl Iterator<Item = (&'static Mistake, Option<Exact>)>) ->
     found.into_iter().map(|(_, found)| Cause::Program(found)).collect()
 }
 
-/// Returns the values of a mistake for the default systems, with another multiple of c as the penalty of each.
+/// Adds penalties that are different for all systems, as multiples of c.
+pub(super) fn with_penalties(mut problems: Vec<Problem>) -> Vec<Problem> {
+    for (i, problem) in problems.iter_mut().enumerate() {
+        problem.penalty = Some(&problem.system.c * Exact::from(i as i32 + 2));
+    }
+    problems
+}
+
+/// Returns the values of a mistake for the default systems, each with a penalty.
 pub(super) fn values(mistake: &Mistake, k: Option<&Exact>) -> Vec<[Option<Exact>; 2]> {
-    static SYSTEMS: LazyLock<Vec<Problem>> = LazyLock::new(|| problems(1, CASES, Family::ALL));
-    let numbered = SYSTEMS.iter().map(|problem| &problem.system).zip(2..);
-    let values = numbered.map(|(system, multiple)| {
-        let penalty = &system.c * Exact::from(multiple);
-        let constants = Constants { penalty: Some(&penalty), factor: k };
-        let touches = mistake.results.reaction(system, &constants) > Exact::zero();
-        mistake.results.of_state(touches).each_ref().map(|formula| value(formula, system, &constants))
-    });
-    values.collect()
+    static PROBLEMS: LazyLock<Vec<Problem>> =
+        LazyLock::new(|| with_penalties(problems(1, CASES, Family::ALL)));
+    PROBLEMS.iter().map(|problem| mistake.results.values(problem, k)).collect()
 }
 
 /// Returns the numbers k for which a mistake gives u or N of an answer.

@@ -2,11 +2,13 @@
 //!
 //! Their formulas are recorded from the chapter's functions, so they can be computed, changed and printed.
 
+use super::problems::Problem;
 use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
 use crate::claims::symbols;
 use crate::number::tree::{Op, piecewise_ops};
 use crate::number::{Exact, PositivePart, Tree};
 use crate::proof::mutation::mutated;
+use num_traits::Zero;
 
 /// u in m and N in N, as formulas.
 pub(super) type Formulas = [Tree; 2];
@@ -130,6 +132,13 @@ impl Results {
     fn divide_by_zero(&self) -> bool {
         let mut formulas = self.condition.iter().chain(&self.contact).chain(&self.separated);
         formulas.any(|formula| formula.any(&divides_by_zero))
+    }
+
+    /// Returns u and N for a problem and an unknown number.
+    pub fn values(&self, Problem { system, penalty, .. }: &Problem, k: Option<&Exact>) -> [Option<Exact>; 2] {
+        let constants = Constants { penalty: penalty.as_ref(), factor: k };
+        let touches = self.reaction(system, &constants) > Exact::zero();
+        self.of_state(touches).each_ref().map(|formula| value(formula, system, &constants))
     }
 
     /// Returns the value that decides the state: R if there is no condition.

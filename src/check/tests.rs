@@ -5,6 +5,7 @@ mod explained;
 mod judged;
 mod programs;
 
+use super::diagnosis::with_penalties;
 use super::program::{Constants, Mistake, Results, edits, numbers, value};
 use super::*;
 use crate::chapter::{SpringMass, augmented, contact, structure, system};
@@ -32,14 +33,6 @@ fn default_problems() -> Vec<Problem> {
     problems(1, CASES, Family::ALL)
 }
 
-/// Adds penalties that are different for all systems, also as multiples of c.
-fn with_penalties(mut problems: Vec<Problem>) -> Vec<Problem> {
-    for (i, problem) in problems.iter_mut().enumerate() {
-        problem.penalty = Some(&problem.system.c * Exact::from(i as i32 + 2));
-    }
-    problems
-}
-
 /// Returns the problem of a system with these c, m, g, l and H.
 fn problem(id: &str, family: Family, parameters: [&str; 5]) -> Problem {
     let [c, m, g, l, h] = parameters.map(number);
@@ -57,10 +50,7 @@ fn run_within(tolerance: &str, problems: &[Problem], solver: impl Fn(&Problem) -
 
 /// Returns the answer of a program with these results and this number k.
 fn answer(results: &Results, problem: &Problem, k: Option<&Exact>) -> Answer {
-    let constants = Constants { penalty: problem.penalty.as_ref(), factor: k };
-    let touches = results.reaction(&problem.system, &constants) > Exact::zero();
-    let [deflection, contact_force] =
-        results.of_state(touches).each_ref().map(|formula| value(formula, &problem.system, &constants));
+    let [deflection, contact_force] = results.values(problem, k);
     Answer { deflection, contact_force, ..Answer::default() }
 }
 
