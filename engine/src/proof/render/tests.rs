@@ -234,3 +234,76 @@ fn each_part_of_a_proof_is_a_line() {
         ]
     );
 }
+
+/// Returns the sum of this number of symbols.
+fn sum_of_symbols(n: usize) -> Tree {
+    let letters = ["a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "m"];
+    letters[..n].iter().map(|name| Tree::symbol(name)).reduce(|a, b| a + b).unwrap()
+}
+
+/// Returns `of` as a difference, whose proof is in cases of its sign.
+fn in_cases(of: &Tree) -> Tree {
+    of.positive_part() - (-of).positive_part()
+}
+
+/// Returns the lines of a proof that begin cases.
+fn cases(proof: Vec<String>) -> Vec<String> {
+    proof.into_iter().filter(|line| line.contains("case ")).collect()
+}
+
+#[test]
+fn a_sum_of_more_than_three_terms_has_a_name_in_cases() {
+    let split = |n| {
+        let sum = sum_of_symbols(n);
+        cases(lines(equal("", in_cases(&sum), &sum), &[])).remove(0)
+    };
+    assert_eq!(split(3), "case a + b + c > 0:");
+    assert_eq!(split(4), "case s₁ > 0, with s₁ = a + b + c + d:");
+    assert_eq!(split(12), "case s₁ > 0, with s₁ = a + b + c + d + e + f + g + h + i + j + k + l:");
+    assert_eq!(split(13), "case s₁ > 0, with a sum s₁ of 13 terms:");
+
+    let [short, long, longer] = [1, 4, 5].map(sum_of_symbols);
+    let sum = in_cases(&short) + in_cases(&long) + in_cases(&longer);
+    let nested = cases(lines(equal("", sum, short + long + longer), &[]));
+    assert_eq!(
+        nested[..3],
+        [
+            "case a > 0:",
+            "  case s₁ > 0, with s₁ = a + b + c + d:",
+            "    case s₂ > 0, with s₂ = a + b + c + d + e:",
+        ]
+    );
+}
+
+#[test]
+fn cases_of_a_function_have_its_name() {
+    let symbols = ["a", "b", "c", "d"];
+    let sum = sum_of_symbols(4);
+    let registry =
+        Registry::new(&symbols, vec![Formula::new("sum", "w", &symbols, sum.clone()).abbreviated()]);
+    let first = |of: &Tree, is: &Tree| {
+        let claim = equal("", of, is);
+        cases(ProofPrinter::new(&registry).proof(&prove(&claim).unwrap())).remove(0)
+    };
+    assert_eq!(first(&in_cases(&sum), &sum), "case w > 0:");
+    let negated = -&sum;
+    assert_eq!(first(&in_cases(&negated), &negated), "case −w > 0:");
+    let other = sum_of_symbols(3);
+    assert_eq!(first(&(in_cases(&other) + &sum), &(&other + &sum)), "case a + b + c > 0:");
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn the_variables_of_certificates_are_described() {
+    let [a, b, u] = ["a", "b", "u"].map(|name| Tree::symbol(name));
+    let [above, near] = [Hypothesis::new(Relation::Positive, b.clone()), Hypothesis::near(&u, &a, &b)];
+    let atoms = |claim: Statement| {
+        let proof = prove(&claim.assuming([&above])).unwrap();
+        ProofPrinter::new(&NONE).data(&proof).remove(0).atoms
+    };
+    assert_eq!(atoms(positive("", b.round())), ["2ᵖ", "b", "e₁: fl(b)"]);
+    assert_eq!(atoms(positive("", b.exp() + &b)), ["b", "exp(b)", "exp(−b)"]);
+    assert_eq!(atoms(within("", &u, u.abs() + &b)), ["b", "u", "|u|", "t₁: u = t₁ |u|"]);
+    let between = non_negative("", &u - &a + &b).assuming([&near]);
+    assert_eq!(atoms(between), ["a", "b", "u", "t₁: from −1 to 1 in |u − a| ≤ b"]);
+}
