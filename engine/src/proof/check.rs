@@ -234,7 +234,8 @@ pub enum CheckError {
 }
 
 /// The reason why the proof of a goal is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a proof that is refused: {self:?}")]
 pub enum Refusal {
     /// A coefficient, power, sum, product or nesting exceeds its limit.
     TooLarge,

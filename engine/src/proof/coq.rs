@@ -104,7 +104,7 @@ impl<'a> Development<'a> {
                 true if !names.insert((section, name.clone())) => {
                     Err(format!("another claim is named {name} in Coq"))
                 }
-                true => Claim::new(claim, printer).text(),
+                true => Claim::new(claim, printer).text().map_err(|reason| reason.to_string()),
             };
             match text {
                 Ok(text) => {

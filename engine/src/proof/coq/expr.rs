@@ -81,7 +81,7 @@ impl Expr {
             let size = Expr::Number(number.unsigned_abs().to_string());
             let factors = powers.iter().enumerate().flat_map(|(x, n)| vec![x; usize::from(*n)]);
             let term = factors.fold(size, |product, x| product.times(variable(x)));
-            sum = Some(match (sum, *number < 0) {
+            sum = Some(match (sum, number.is_negative()) {
                 (None, false) => term,
                 (None, true) => term.negated(),
                 (Some(sum), false) => sum.plus(term),

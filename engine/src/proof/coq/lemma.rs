@@ -9,7 +9,7 @@ use crate::number::Tree;
 use crate::number::tree::Op;
 
 /// Result, with the reason why a claim cannot be exported.
-pub(super) type Result<T> = std::result::Result<T, String>;
+pub(super) type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 /// Variables and hypotheses of a lemma; if it contains roundings, it is for every precision.
 #[derive(Clone)]

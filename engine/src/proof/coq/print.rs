@@ -4,6 +4,7 @@ use super::expr::{Expr, Operator};
 use crate::formula::{Formula, Registry};
 use crate::number::Tree;
 use crate::number::tree::Op;
+use num_traits::Zero;
 
 /// Words with a meaning in Coq or in our proofs.
 const TAKEN: [&str; 27] = [
@@ -53,25 +54,19 @@ pub(super) fn function(formula: &Formula) -> String {
     free(formula.name().replace("::", "_").replace('.', "_"))
 }
 
-/// Returns a formula without the operations 0 x, 1 x and x + 0 that the rules of differentiation produce.
+/// Returns a formula without the zeros that the rules of differentiation produce, as no divisor of a zero is printed.
 pub(super) fn simplified(tree: &Tree) -> Tree {
     tree.rewrite(&|tree| {
         if !tree.site().is_in_dual_numbers() {
             return None;
         }
         match tree.op() {
-            Op::Add(a, b) if is_int(a, 0) => Some(b.clone()),
-            Op::Add(a, b) | Op::Sub(a, b) if is_int(b, 0) => Some(a.clone()),
-            Op::Mul(a, b) if is_int(a, 0) || is_int(b, 1) => Some(a.clone()),
-            Op::Mul(a, b) if is_int(b, 0) || is_int(a, 1) => Some(b.clone()),
-            Op::Div(a, _) | Op::Neg(a) if is_int(a, 0) => Some(a.clone()),
+            Op::Add(a, b) if a.is_zero() => Some(b.clone()),
+            Op::Mul(a, _) | Op::Div(a, _) | Op::Neg(a) if a.is_zero() => Some(a.clone()),
+            Op::Mul(_, b) if b.is_zero() => Some(b.clone()),
             _ => None,
         }
     })
-}
-
-fn is_int(tree: &Tree, n: i32) -> bool {
-    *tree.op() == Op::Int(n)
 }
 
 /// Printer of formulas with the names of a registry's functions.

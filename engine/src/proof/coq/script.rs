@@ -13,7 +13,7 @@ use super::lemma::{Lemma, Result};
 use super::print::{ascii, simplified};
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Proposition, Registry, Statement};
-use crate::proof::check::{Atom, Node, Polynomial, Problem, Refusal, Sign};
+use crate::proof::check::{Atom, Node, Polynomial, Problem, Sign};
 use crate::proof::render::ProofPrinter;
 use crate::proof::search::prove_proposition;
 use std::fmt::Write;
@@ -35,10 +35,6 @@ struct Target<'p> {
     tactic: &'static str,
 }
 
-fn refused(reason: Refusal) -> String {
-    format!("a proof that is refused: {reason:?}")
-}
-
 impl<'p> Target<'p> {
     fn new(lemma: &'p Lemma<'p>, problem: &'p Problem<'p>, labels: Vec<Option<String>>) -> Self {
         let is_smooth = matches!(problem.proposition, Proposition::Derivative(..));
@@ -53,10 +49,8 @@ impl<'p> Target<'p> {
         proposition: &Proposition,
         write: impl FnOnce(Target) -> Result<()>,
     ) -> Result<()> {
-        let printed = hypotheses.iter().map(|h| Hypothesis { value: simplified(&h.value), ..(*h).clone() });
-        let printed: Vec<_> = printed.collect();
         let proposition = proposition.map(&simplified);
-        let problem = Problem::new(&proposition, printed.iter().collect()).map_err(refused)?;
+        let problem = Problem::new(&proposition, hypotheses.to_vec())?;
         write(Target::new(lemma, &problem, hypotheses.iter().map(|h| lemma.label(h)).collect()))
     }
 
@@ -86,12 +80,12 @@ impl<'p> Target<'p> {
 
     /// Writes the formula with a number as an argument.
     fn formula(&self, number: usize) -> Result<String> {
-        let tree = self.problem.table.formula(number).map_err(refused)?;
+        let tree = self.problem.table.formula(number)?;
         Ok(self.lemma.printer.expr(tree).argument())
     }
 
     fn variable(&self, atom: Atom) -> Result<usize> {
-        self.problem.table.variable(atom).map_err(refused)
+        Ok(self.problem.table.variable(atom)?)
     }
 
     fn label(&self, i: usize) -> Result<&str> {

@@ -5,7 +5,7 @@ use super::lemma::{Lemma, Result, divisors, format_proposition, none_is_zero};
 use super::print::{Printer, ascii, free};
 use super::script::Script;
 use super::{identifier, theorem_name};
-use crate::formula::claim::{MEMBERS, POWER};
+use crate::formula::claim::POWER;
 use crate::formula::statement::{Goal, Role, Sequence};
 use crate::formula::{Hypothesis, Proposition, Statement};
 use crate::number::Tree;
@@ -29,7 +29,7 @@ impl<'a> Claim<'a> {
         let symbols = self.printer.registry.symbols_of(self.statement.trees());
         for (i, symbol) in symbols.iter().enumerate() {
             if let Some(same) = symbols[..i].iter().find(|other| ascii(other) == ascii(symbol)) {
-                return Err(format!("{same} and {symbol} have the same name in Coq"));
+                return Err(format!("{same} and {symbol} have the same name in Coq").into());
             }
         }
         let sequence = self.statement.conclusion();
@@ -63,24 +63,13 @@ impl<'a> Claim<'a> {
         Lemma::new(name, self.printer, self.statement.contains_rounding(), hypotheses, trees.into_iter())
     }
 
-    /// Returns the lemma of a goal, without hypotheses on a member and the quantity computed from it if the
-    /// goal contains neither. Its name is that of the part, with a number if there are several.
+    /// Returns the lemma of a goal. Its name is that of the part, with a number if there are several.
     pub(super) fn lemma(&self, goal: &Goal) -> Lemma<'a> {
-        let mut hypotheses = self.statement.hypotheses_for(goal.role);
-        if !goal.proposition.trees().into_iter().any(|tree| self.mentions_member(tree)) {
-            hypotheses.retain(|h| !self.mentions_member(&h.value));
-        }
+        let hypotheses = self.statement.hypotheses_for(goal.role);
         let alike: Vec<_> = self.statement.goals().iter().filter(|other| other.part == goal.part).collect();
         let index = alike.iter().position(|other| std::ptr::eq(*other, goal)).map_or(0, |index| index + 1);
         let number = if alike.len() > 1 { index.to_string() } else { String::new() };
         self.new_lemma(&format!("{} {number}", goal.part), hypotheses, goal.proposition.trees())
-    }
-
-    /// Returns `true` if a formula contains the first component of a member or a quantity computed from it.
-    fn mentions_member(&self, tree: &Tree) -> bool {
-        let computed = self.statement.computed();
-        let symbols = tree.symbols();
-        symbols.iter().any(|name| *name == MEMBERS[0] || computed.iter().any(|c| c.symbol == *name))
     }
 
     /// Returns a goal with its proof.

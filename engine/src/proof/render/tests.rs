@@ -136,6 +136,7 @@ fn the_reason_for_a_failed_proof_uses_the_names_of_the_registry() {
     let reason = prove(&statement).unwrap_err();
     let registry = Registry::new(&["a", "b"], Vec::new()).with_factors(&["b", "a"]);
     assert_eq!(ProofPrinter::new(&registry).describe(&statement, &reason), "the sides differ by b a");
+    assert_eq!(format!("{reason:?}"), "Unequal(a b)");
     // It implements `Error`.
     let error: Box<dyn std::error::Error> = Box::new(reason);
     assert_eq!(error.to_string(), "the sides differ by a b");

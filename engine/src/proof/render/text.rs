@@ -122,7 +122,7 @@ pub(super) fn justify(of: &ProofError, text: &dyn Fn(&Tree) -> String, factors: 
         }
         WrongSign(value, sign) => format!("{} is {}", ratio(value), sign_text(*sign)),
         Unequal(value) => format!("the sides differ by {}", ratio(value)),
-        UnknownLimit(value) => format!("no rule finds the limit of {}", ratio(value)),
+        UnknownLimit(value) => format!("no rule finds that {} has the stated limit", ratio(value)),
         NotDifferentiable => "⟨·⟩ and min are not differentiable at kinks".to_string(),
         TooLarge(most) => format!("its proof exceeds the limit of {most} terms"),
         NotExpressed(reason) => format!("its proof cannot be checked: {reason}"),
@@ -175,6 +175,13 @@ pub(super) fn sign_text(sign: Sign) -> &'static str {
 impl fmt::Display for ProofError {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&justify(self, &Tree::to_string, &[]))
+    }
+}
+
+/// Writes the formula, with factors sorted by name.
+impl fmt::Debug for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&Order { context: &self.context, factors: &[] }.ratio_or_size(&self.value))
     }
 }
 

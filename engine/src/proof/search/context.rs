@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 const MAX_SIZES: usize = 8;
 
 /// The assumptions of a proof, in the form in which the rules use them.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(in crate::proof) struct Context {
     /// The assumptions in order.
     pub(in crate::proof) assumptions: Vec<Assumption>,

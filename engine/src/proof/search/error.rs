@@ -22,7 +22,7 @@ pub enum ProofError {
     Unequal(Quantity),
     /// The formula to be differentiated contains ⟨·⟩ or min.
     NotDifferentiable,
-    /// No rule finds the limit of a quantity.
+    /// No rule finds that a quantity has the stated limit.
     UnknownLimit(Quantity),
     /// A sign was found that could not be expressed by certificates, for this reason.
     NotExpressed(&'static str),
@@ -33,7 +33,7 @@ pub enum ProofError {
 }
 
 /// A quantity at which a proof failed, in the variables that remain under the assumptions.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Quantity {
     /// Its value.
     pub(in crate::proof) value: Ratio,

@@ -3,7 +3,7 @@
 use super::super::lemma::{Result, spaced};
 use super::super::print::simplified;
 use super::solution::Solution;
-use super::{Script, Target, refused};
+use super::{Script, Target};
 use crate::formula::statement::Proposition;
 use crate::number::{Exponential, Tree};
 use crate::proof::check::{
@@ -382,7 +382,7 @@ fn product(all: &[usize]) -> String {
 impl Script {
     /// Proves the goal at a leaf.
     pub(super) fn leaf(&mut self, target: &Target, leaf: &Leaf, cases: &[(Polynomial, Sign)]) -> Result<()> {
-        let (state, steps) = trace(target.problem, leaf, cases).map_err(refused)?;
+        let (state, steps) = trace(target.problem, leaf, cases)?;
         for (rise, i) in leaf.rises.iter().zip(1..) {
             self.rise(target, &state, rise, i)?;
         }
@@ -417,20 +417,18 @@ impl Script {
         let Some(Atom::Own(x)) = target.problem.table.atoms().get(rise.x) else {
             return Err("a function of no symbol".into());
         };
-        let parts = parts_of_rise(target.problem, rise, x).map_err(refused)?;
+        let parts = parts_of_rise(target.problem, rise, x)?;
         let at_x = state.signs.get(rise.x).copied().flatten().ok_or("an argument without a sign")?;
         let name = target.name(rise.x);
         let (mut values, mut slopes) = (Vec::new(), Vec::new());
         for (y, atom) in target.problem.table.atoms().iter().enumerate() {
             let tree = match atom {
                 Atom::Own(symbol) if rise.of.degree(y) > 0 => Tree::symbol(symbol),
-                Atom::Exponential(of) if rise.of.degree(y) > 0 => {
-                    target.problem.table.formula(*of).map_err(refused)?.exp()
-                }
+                Atom::Exponential(of) if rise.of.degree(y) > 0 => target.problem.table.formula(*of)?.exp(),
                 // It does not occur in the function.
                 _ => Tree::from(0),
             };
-            let slope = simplified(&derivative(&tree, x).map_err(refused)?);
+            let slope = simplified(&derivative(&tree, x)?);
             values.push(target.lemma.printer.expr(&tree).to_string());
             slopes.push(target.lemma.printer.expr(&slope).to_string());
         }
@@ -451,7 +449,7 @@ impl Script {
             hypotheses.extend(assumed);
             labels.extend(assumed.iter().map(|_| Some("K".to_string())));
             let proposition = proposition.map(&simplified);
-            let part = Problem::new(&proposition, hypotheses).map_err(refused)?;
+            let part = Problem::new(&proposition, hypotheses)?;
             self.block("{", |script| {
                 script.line(&format!("clear{minus}{kept}."));
                 if assumed.is_some() {

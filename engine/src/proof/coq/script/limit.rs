@@ -3,7 +3,7 @@
 use super::super::expr::Expr;
 use super::super::lemma::{Lemma, Result};
 use super::leaf::Writer;
-use super::{Script, Target, refused};
+use super::{Script, Target};
 use crate::formula::{Hypothesis, Proposition};
 use crate::number::tree::Op;
 use crate::proof::check::{Atom, Leaf, Node, Polynomial, Quotient, Reason, State};
@@ -36,9 +36,9 @@ impl Script {
                 return Err("no limit".into());
             };
             let Node::Leaf(leaf) = target.proof()? else { return Err("a limit in cases".into()) };
-            let (state, mut steps) = trace(target.problem, &leaf, &[]).map_err(refused)?;
+            let (state, mut steps) = trace(target.problem, &leaf, &[])?;
             retain_facts(&state, &mut steps);
-            let of = reread(state.clone()).translate(of).map_err(refused)?;
+            let of = reread(state.clone()).translate(of)?;
             let x = target.variable(Atom::Own(by))?;
             Limit { target, state: &state, leaf: &leaf, steps: &steps, by, x, of }.write(self)
         })
@@ -102,7 +102,7 @@ impl Limit<'_> {
     }
 
     fn product(&self, facts: &[usize]) -> Result<Polynomial> {
-        self.state.facts.product(facts).map_err(refused)
+        Ok(self.state.facts.product(facts)?)
     }
 
     fn write(&self, script: &mut Script) -> Result<()> {
@@ -169,7 +169,7 @@ impl Limit<'_> {
         script.line(&format!("intros {name} X."));
         script.names(&target, |_| true)?;
         let mut writer = Writer::new(&target, self.state, self.leaf, |_| true)?;
-        let variable = Polynomial::variable(self.x).map_err(refused)?;
+        let variable = Polynomial::variable(self.x)?;
         writer.add_fact("X".into());
         for step in self.steps {
             writer.step(step)?;
