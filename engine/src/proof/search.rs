@@ -47,6 +47,7 @@ use algebra::{Poly, Ratio};
 use dictionary::integral;
 use knowledge::{AssumedFact, Knowledge};
 use source::Search;
+use std::collections::BTreeSet;
 
 /// The reason why a search ended without a leaf.
 #[derive(Clone, Debug)]
@@ -281,42 +282,27 @@ impl<'a> Attempt<'a> {
     fn read(&self, reader: &mut Reader<'a, Search<'a>>, decisions: &[Decision]) -> Result<(), Failure> {
         let cases: Vec<_> = decisions.iter().filter_map(case).collect();
         reader.assume_cases(&cases);
-        let order = self.order();
+        let (order, mut bounded) = (self.order(), BTreeSet::new());
         for (position, i) in order.iter().enumerate() {
             reader.source.follow(position, decisions);
             let hypothesis = self.problem.hypotheses[*i];
-            let interval = hypothesis.interval();
-            if let Some((x, ..)) = interval
-                && !reader.source.known.context.is_free(self.problem.table.variable(Atom::Own(x))?)
-            {
+            if hypothesis.interval().is_some_and(|(x, ..)| !bounded.insert(x)) {
                 continue;
             }
-            let Some((x, lower, upper)) = interval else {
-                let fact = self.assume(reader, *i)?;
-                let value = reader.value(self.problem.values[*i])?;
-                let value = reader.source.known.ratio(&value, &reader.state);
-                reader.source.known.assume(hypothesis, value, fact);
-                continue;
-            };
-            let ends = [reader.translate(lower)?, reader.translate(upper)?];
-            let ends = ends.map(|end| reader.source.known.ratio(&end, &reader.state));
-            self.assume(reader, *i)?;
-            reader.source.known.assume_interval(*i, x, ends)?;
+            reader.assume(*i)?;
+            reader.source.leaf.hypotheses.push(*i);
+            if hypothesis.interval().is_none() {
+                let of = reader.value(self.problem.values[*i])?;
+                let value = reader.source.known.ratio(&of, &reader.state);
+                let (fact, scale) = (reader.state.facts.iter().len() - 1, Poly::constant(1).into());
+                reader.source.known.assume(hypothesis, value, AssumedFact { fact, den: of.den, scale });
+            }
         }
         reader.source.follow(order.len(), decisions);
         let Leaf { rises, orders, .. } = &reader.source.leaf;
         let rest = Leaf { rises: rises.clone(), orders: orders.clone(), ..Leaf::default() };
         reader.conclude(&rest, &cases)?;
         Ok(())
-    }
-
-    /// Lets the reader use a hypothesis, and returns its fact.
-    fn assume(&self, reader: &mut Reader<'a, Search<'a>>, i: usize) -> Result<AssumedFact, Failure> {
-        reader.assume(i)?;
-        reader.source.leaf.hypotheses.push(i);
-        let den = reader.state.value(self.problem.values[i]).map(|value| value.den.clone());
-        let fact = reader.state.facts.iter().len() - 1;
-        Ok(AssumedFact { fact, den: den.unwrap_or_default(), scale: Poly::constant(1).into() })
     }
 
     /// Returns the numbers of the hypotheses: intervals before what mentions their symbols, and those on the
@@ -327,8 +313,9 @@ impl<'a> Attempt<'a> {
         let mut order: Vec<_> = (0..hypotheses.len()).collect();
         order.sort_by_key(|i| {
             let (hypothesis, symbols) = (hypotheses[*i], hypotheses[*i].value.symbols());
-            let waits = hypothesis.interval().is_none() && bounded.iter().any(|x| symbols.contains(x));
-            (self.mentions_variable(hypothesis), waits)
+            let own = hypothesis.interval().map(|(x, ..)| x);
+            let waits = bounded.iter().any(|x| symbols.contains(x) && own != Some(*x));
+            (self.mentions_variable(hypothesis), waits, waits && own.is_none())
         });
         order
     }

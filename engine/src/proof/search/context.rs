@@ -48,6 +48,15 @@ impl Context {
                     context.roundings.extend(problem.table.formula(*of).cloned());
                     context.next_symbol(Symbol::Error)
                 }
+                Atom::IntervalParameter(i) => {
+                    context.assumptions.push(Assumption {
+                        hypothesis: Some(problem.hypotheses[*i].clone()),
+                        value: Poly::variable(x).into(),
+                        divisor: None,
+                        usage: AssumptionUse::Interval(x),
+                    });
+                    context.next_symbol(Symbol::IntervalParameter)
+                }
                 _ => None,
             };
             if symbol == Some(Symbol::Own(PRECISION)) {
@@ -150,12 +159,6 @@ impl Context {
         Some(SignedRatio { subtracted, ..rest })
     }
 
-    /// Returns `true` if a symbol is not replaced, so that an interval may give it a value.
-    pub(super) fn is_free(&self, x: usize) -> bool {
-        let quantity = Ratio::from(Poly::variable(x));
-        self.reduce(&quantity) == quantity
-    }
-
     /// Adds the assumption that a quantity has a sign.
     pub(super) fn assume_sign(&mut self, hypothesis: Option<&Hypothesis>, value: Ratio, sign: Sign) {
         let value = self.reduce(&value);
@@ -207,34 +210,6 @@ impl Context {
             let rule = self.pivot(hypothesis, &value.checked_div(&divisor)?, &by, &known)?;
             Some((Some(divisor), rule, slack))
         })
-    }
-
-    /// Adds the assumption that a symbol lies in an interval, as the midpoint plus t times half the length,
-    /// for some t between −1 and 1, the interval parameter. A known sign of the symbol, which this does not
-    /// imply, is retained.
-    pub(super) fn assume_interval(
-        &mut self,
-        hypothesis: &Hypothesis,
-        [x, parameter]: [usize; 2],
-        lower: &Ratio,
-        upper: &Ratio,
-    ) {
-        let half = Ratio::from(Poly::constant((1, 2)));
-        let [middle, reach] = [upper + lower, upper - lower].map(|sum| self.reduce(&(sum * &half)));
-        let quantity = Ratio::from(Poly::variable(x));
-        let used = match self.next_symbol(Symbol::IntervalParameter) {
-            Some(symbol) => {
-                let by = middle + reach * Ratio::from(Poly::variable(parameter));
-                let sign = self.signs.set(x, None);
-                self.retained.extend(sign.map(|sign| (quantity.clone(), sign)));
-                self.replace(Monomial::of(x), by);
-                self.symbols.insert(parameter, symbol);
-                AssumptionUse::Interval(parameter)
-            }
-            None => AssumptionUse::Unused,
-        };
-        let hypothesis = Some(hypothesis.clone());
-        self.assumptions.push(Assumption { hypothesis, value: quantity, divisor: None, usage: used });
     }
 
     /// Replaces a quantity x by t s, where s is its absolute value and −1 ≤ t ≤ 1, given the variables of s and

@@ -49,15 +49,6 @@ impl<'a> Knowledge<'a> {
         self.record(Some(fact));
     }
 
-    /// Adds the hypothesis with this number, that a symbol is between two values.
-    pub fn assume_interval(&mut self, i: usize, x: &'static str, ends: [Ratio; 2]) -> Result<(), Refusal> {
-        let table = &self.problem.table;
-        let variables = [table.variable(Atom::Own(x))?, table.variable(Atom::IntervalParameter(i))?];
-        self.context.assume_interval(self.problem.hypotheses[i], variables, &ends[0], &ends[1]);
-        self.record(None);
-        Ok(())
-    }
-
     /// Adds the assumption of a case.
     pub fn assume_case(&mut self, deciding: &Poly, sign: Sign, fact: AssumedFact) {
         self.context.assume_sign(None, deciding.clone().into(), sign);
@@ -113,11 +104,8 @@ impl<'a> Knowledge<'a> {
     pub fn retained(&self, of: &Ratio) -> Option<&AssumedFact> {
         let mut retained = self.context.retained.iter();
         let (quantity, _) = retained.find(|(quantity, _)| self.context.reduce(quantity) == *of)?;
-        // The quantity may also be a variable whose sign is known and that is in an interval.
-        let index = self.context.assumptions.iter().rposition(|assumption| match assumption.usage {
-            AssumptionUse::Retained => assumption.value == *quantity,
-            AssumptionUse::Variable(x) => Ratio::from(Poly::variable(x)) == *quantity,
-            _ => false,
+        let index = self.context.assumptions.iter().rposition(|assumption| {
+            matches!(assumption.usage, AssumptionUse::Retained) && assumption.value == *quantity
         })?;
         self.facts.get(index)?.as_ref()
     }

@@ -279,6 +279,15 @@ fn intervals_bound_their_quantity() {
         assert!(proved(hypotheses.clone(), Proposition::Within(x("u"), int(1))));
         assert!(!proved(hypotheses, Proposition::Sign(Relation::Positive, x("u"))));
     }
+    // The ends may depend on a quantity that another interval bounds.
+    let near_q = Hypothesis::near(&x("u"), q.positive_part(), x("c"));
+    let near_a = Hypothesis::near(&q, x("a"), x("c"));
+    for hypotheses in [[near_a.clone(), near_q.clone()], [near_q, near_a]] {
+        let hypotheses = [stiffness(), vec![not_below_zero(x("a"))], hypotheses.to_vec()].concat();
+        let within = |bound: Tree| Proposition::Within(x("u") - x("a"), bound);
+        assert!(proved(hypotheses.clone(), within(x("c") + x("c"))));
+        assert!(!proved(hypotheses, within(x("c"))));
+    }
     // (1 − q)(u − 0) ≥ 0 has the form of an interval but does not bound q.
     let other = not_below_zero((int(1) - &q) * (x("u") - int(0)));
     assert!(!proved(vec![other], small()));
