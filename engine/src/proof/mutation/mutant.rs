@@ -307,12 +307,13 @@ mod tests {
     }
 
     #[test]
-    fn symbols_are_replaced_in_one_operand_only() {
+    fn only_the_symbol_or_integer_of_a_mutation_is_replaced() {
         let [a, c, eps] = ["a", "c", "ε"].map(|name| Tree::symbol(name));
         let mutation = |index| Mutation::Symbol(index, "c", "ε");
         let square = &c * &c;
         assert_eq!([0, 1].map(|i| mutation(i).mutate(&square)), [Some(&eps * &c), Some(&c * &eps)]);
         assert_eq!([0, 1].map(|i| mutation(i).mutate(&(&a * &c))), [None, Some(&a * &eps)]);
+        assert_eq!(Mutation::Integer(2, 3).mutate(&Tree::int(5)), None);
     }
 
     /// Hypotheses, goals, computed quantities and the sequence are all changed.

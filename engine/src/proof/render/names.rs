@@ -96,6 +96,10 @@ impl ProofPrinter<'_> {
             AssumptionUse::Size { size, .. } if context.symbol(*size) == Some(symbol) => {
                 Some(format!("{} = |{}|", symbol.name(), order.ratio_or_size(&assumption.value)))
             }
+            AssumptionUse::Size { factor, .. } if context.symbol(*factor) == Some(symbol) => {
+                let (of, factor) = (order.ratio_or_size(&assumption.value), symbol.name());
+                Some(format!("{of} = {factor} |{of}| with |{factor}| ≤ 1"))
+            }
             _ => None,
         })
     }
@@ -122,7 +126,7 @@ impl ProofError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::formula::claim::{Rate, equal, limit, positive};
+    use crate::formula::claim::{Rate, equal, limit, positive, within};
     use crate::formula::{Formula, Hypothesis, Registry, Relation};
     use crate::number::PositivePart;
     use crate::proof::prove;
@@ -169,6 +173,22 @@ mod tests {
         );
         // There is nothing to define.
         assert_eq!(reason(&equal("", &a, &b)), "the sides differ by a − b");
+    }
+
+    /// Each is that of its own quantity.
+    #[test]
+    fn parameters_of_intervals_and_absolute_values_are_defined() {
+        let [a, b, c, u, v] = ["a", "b", "c", "u", "v"].map(|name| Tree::symbol(name));
+        let intervals = [Hypothesis::near(&u, &a, &b), Hypothesis::near(&v, &a, &c)];
+        assert_eq!(
+            reason(&positive("", &v).assuming(&intervals)),
+            "no rule finds the sign of a + c t₂, where t₂ goes from −1 to 1 as v goes from a − c to a + c"
+        );
+        assert_eq!(
+            reason(&within("", Tree::from(2) * &v, u.abs() + v.abs())),
+            "no rule finds the sign of s₂ + s₁ − 2 s₂ t₂: the sign of the term −2 s₂ t₂ is unknown, \
+             where s₁ = |u| and s₂ = |v| and v = t₂ |v| with |t₂| ≤ 1"
+        );
     }
 
     fn above_zero(value: Tree) -> Hypothesis {

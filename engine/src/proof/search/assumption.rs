@@ -37,13 +37,14 @@ pub enum AssumptionUse {
     Pivot(Monomial, Ratio, Option<usize>),
     /// A symbol is replaced by its value in an interval, with this parameter between −1 and 1.
     Interval(usize),
-    /// The absolute value of the quantity is a variable `size`, and the quantity is the product of it and a
-    /// variable between −1 and 1.
+    /// The absolute value of the quantity is a variable.
     Size {
         /// The pivot.
         pivot: Monomial,
         /// The absolute value.
         size: usize,
+        /// The quantity divided by it, between −1 and 1.
+        factor: usize,
     },
     /// The quantity is retained unchanged. Multiples of it may be [subtracted](SignedRatio::less).
     Retained,

@@ -228,7 +228,7 @@ impl Context {
         self.signs = known;
         self.replace(pivot.clone(), by);
         self.symbols.extend([(size, symbols.0), (factor, symbols.1)]);
-        let usage = AssumptionUse::Size { pivot, size };
+        let usage = AssumptionUse::Size { pivot, size, factor };
         let (hypothesis, divisor) = (None, None);
         self.assumptions.push(Assumption { hypothesis, value: value.clone(), divisor, usage });
         self.size(&value).is_some()

@@ -106,7 +106,7 @@ impl Finder<'_, '_> {
                     let assumed = guide.facts.get(i).and_then(Option::as_ref);
                     (pivot, assumed.ok_or("an equation")?.fact)
                 }
-                AssumptionUse::Size { pivot, size } => {
+                AssumptionUse::Size { pivot, size, .. } => {
                     // An absolute value may not have been met yet.
                     let known = self.state.sizes.iter().find(|known| known.size == *size);
                     let Some(known) = known else { continue };
