@@ -9,8 +9,8 @@
 //! the value that this equation gives it. (For a b − c (x − y) > 0: a b by s + c (x − y); or x by
 //! (a b + c y − s)/c, where c ≠ 0 is known.) Where no pivot is found, v may be divided by a positive symbol: for
 //! k > 0, the hypothesis 1 − k > 0 is (1 − k)/k = s > 0, and k is 1/(1 + s). A hypothesis h > 0 without a pivot
-//! is retained, and so is the known sign of a symbol that is replaced by its place in an interval. Where no rule
-//! finds the sign of v, the rules may find those of m and of v − m h, for a quotient m that makes a symbol cancel.
+//! is retained: where no rule finds the sign of v, the rules may find those of m and of v − m h, for a quotient m
+//! that makes a symbol cancel. The reader itself replaces a symbol in an interval, before what mentions the symbol.
 //!
 //! If the sign that decides a branch is not found, both cases of its quantity are proved. For an absolute value
 //! |x| no cases are needed at first: x is replaced by t |x| for some −1 ≤ t ≤ 1.

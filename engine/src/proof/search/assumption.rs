@@ -35,7 +35,7 @@ pub enum AssumptionUse {
     Variable(usize),
     /// A pivot, its value, and the slack variable for the quantity, unless that is 0.
     Pivot(Monomial, Ratio, Option<usize>),
-    /// A symbol is replaced by its value in an interval, with this parameter between −1 and 1.
+    /// The reader replaces a symbol by its value in an interval, with this parameter between −1 and 1.
     Interval(usize),
     /// The absolute value of the quantity is a variable.
     Size {
@@ -48,7 +48,7 @@ pub enum AssumptionUse {
     },
     /// The quantity is retained unchanged. Multiples of it may be [subtracted](SignedRatio::less).
     Retained,
-    /// An equation without a pivot, or an interval of a replaced quantity, which is not used.
+    /// An equation without a pivot, which is not used.
     Unused,
 }
 

@@ -34,7 +34,7 @@ pub(in crate::proof) struct Context {
 }
 
 impl Context {
-    /// Creates a context whose only assumption is that powers of two are positive.
+    /// Creates a context with the intervals of the problem, in which powers of two are positive.
     pub(in crate::proof) fn new(problem: &Problem) -> Self {
         let (assumptions, symbols, roundings, substitutions, retained) = Default::default();
         let units = (0..FIRST_SLACK).filter(|x| problem.table.is_unit(*x));
