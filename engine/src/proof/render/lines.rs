@@ -263,7 +263,7 @@ impl<'a> Lines<'a> {
             });
             let size = number(&n.unsigned_abs().into());
             let product = factors.into_iter().cloned().reduce(|a, b| a * b);
-            (*n < 0, product.map_or(size.clone(), |product| size * product))
+            (n.is_negative(), product.map_or(size.clone(), |product| size * product))
         })))
     }
 
@@ -331,22 +331,26 @@ impl End<'_> {
         lines
     }
 
-    /// Returns the lines about the sign of a numerator, except earlier ones.
-    fn sign_step(&self, of: &Quotient, reason: &Reason, is_divisor: bool, earlier: &[String]) -> Vec<String> {
-        let mut lines = self.sign("", &of.num, &of.den, reason);
-        let last = lines.pop().filter(|_| !of.num.is_zero());
+    /// Returns the line about the sign of a numerator, except an earlier one.
+    fn sign_step(
+        &self,
+        of: &Quotient,
+        reason: &Reason,
+        is_divisor: bool,
+        earlier: &[String],
+    ) -> Option<String> {
+        let sign = self.sign("", &of.num, &of.den, reason).filter(|_| !of.num.is_zero());
         let decision = self.decisions.iter().find(|(decides, _)| decides == of);
-        lines.extend(match (decision, last) {
+        let line = match (decision, sign) {
             (Some((_, follows)), _) if earlier.iter().any(|line| line.starts_with(follows)) => None,
-            (Some((_, follows)), Some(last)) if !is_divisor => Some(format!("{follows}, since {last}")),
-            (Some((_, follows)), None) if !is_divisor => Some(follows.clone()),
-            (_, last) => last.filter(|_| !self.is_plain(&of.num)).map(|last| match is_divisor {
-                true => format!("divisor {last}"),
-                false => last,
+            (Some((_, follows)), Some(sign)) => Some(format!("{follows}, since {sign}")),
+            (Some((_, follows)), None) => Some(follows.clone()),
+            (None, sign) => sign.filter(|_| !self.is_plain(&of.num)).map(|sign| match is_divisor {
+                true => format!("divisor {sign}"),
+                false => sign,
             }),
-        });
-        lines.retain(|line| !earlier.contains(line));
-        lines
+        };
+        line.filter(|line| !earlier.contains(line))
     }
 
     /// Returns the lines about a function whose sign follows from its start and its slope.
@@ -379,7 +383,7 @@ impl End<'_> {
     fn is_plain(&self, of: &Polynomial) -> bool {
         let atoms = self.goal.problem.table.atoms();
         let is_in_precision = of.has_only(|x| matches!(atoms.get(x), Some(Atom::Own(PRECISION))));
-        of.terms().len() <= 1 || (is_in_precision && of.terms().all(|(_, n)| *n > 0))
+        of.terms().len() <= 1 || (is_in_precision && of.terms().all(|(_, n)| n.is_positive()))
     }
 
     /// Returns the lines about the goal.
@@ -400,10 +404,10 @@ impl End<'_> {
                     lines.push(format!("it is {of}, which tends to {to} by its degrees in {by}{decay}"));
                 }
                 (Proposition::Equal(..), [Some(a), Some(b)]) if of.is_zero() => {
-                    let shorter = if a.num.terms().len() > b.num.terms().len() { b } else { a };
-                    lines.push(format!("both sides are {}", self.quotient(shorter)));
+                    let shorter = [a, b].into_iter().min_by_key(|side| side.num.terms().len());
+                    lines.push(format!("both sides are {}", self.quotient(shorter.unwrap_or(a))));
                 }
-                (Proposition::Derivative(..), [_, Some(is)]) if of.is_zero() => {
+                (Proposition::Derivative(..), [_, Some(is)]) => {
                     lines.push(format!("the derivative is {}", self.quotient(is)));
                 }
                 _ if of.is_zero() => lines.push(format!("{name}0")),

@@ -60,28 +60,32 @@ impl End<'_> {
         }
     }
 
-    /// Returns the lines about the sign of a quotient, the last one after a prefix; none if it is the assumption
-    /// of a case.
-    pub(super) fn sign(&self, prefix: &str, of: &Polynomial, den: &[usize], reason: &Reason) -> Vec<String> {
+    /// Returns the line about the sign of a quotient after a prefix; `None` if it is the assumption of a case.
+    pub(super) fn sign(
+        &self,
+        prefix: &str,
+        of: &Polynomial,
+        den: &[usize],
+        reason: &Reason,
+    ) -> Option<String> {
         if prefix.is_empty()
             && let Reason::Fact(i) = reason
             && self.state.assumed.contains(&(None, *i))
         {
-            return Vec::new();
+            return None;
         }
         let (certificate, first) = (self.certificate(reason), self.goal.atoms.len());
         let signs = (self.state.certify(of, &certificate), self.state.facts.sign_of_product(den));
-        let (Ok(sign), Ok(den_sign)) = signs else { return Vec::new() };
+        let (Ok(sign), Ok(den_sign)) = signs else { return None };
         let is_one = certificate.left == Polynomial::constant(1);
         let is_fact = is_one && is_variable(&certificate.right, first);
         let (sign, mut by) = (sign_text(sign.times(den_sign)), Vec::new());
         self.reasons(&certificate, &mut by);
         if is_fact && prefix.is_empty() && den.is_empty() && !by.is_empty() {
-            return by;
+            return by.pop();
         }
         let written = self.goal.form(of, &[]);
         let mut forms = self.forms(&certificate, is_one || written.is_some());
-        let mut lines = if forms.right.is_some() { self.lemmas(&certificate) } else { Vec::new() };
         let line = match forms.right.take_if(|_| is_one) {
             Some(right) => {
                 let written = match reason {
@@ -104,8 +108,7 @@ impl End<'_> {
         };
         by.retain(|reason| *reason != line);
         let by = if by.is_empty() { String::new() } else { format!(", by {}", by.join(", ")) };
-        lines.push(format!("{prefix}{line}{by}"));
-        lines
+        Some(format!("{prefix}{line}{by}"))
     }
 
     /// Returns the certificate of a reason; that of a fact states that it is the fact.
@@ -122,25 +125,13 @@ impl End<'_> {
     /// Returns the forms of a certificate; a long right form only if `is_long_shown`.
     fn forms(&self, certificate: &Certificate, is_long_shown: bool) -> Forms {
         let Certificate { known, left, right } = certificate;
-        let (first, mut sums) = (self.goal.atoms.len(), Vec::new());
+        let mut sums = Vec::new();
         let quantities: Option<Vec<_>> =
             known.iter().map(|known| Some(self.goal.factor(&self.known(known)?, &mut sums))).collect();
-        let left = match &quantities {
-            _ if left.has_only(|x| x < first) => self.goal.form(left, &[]),
-            quantities => quantities.as_ref().and_then(|known| self.goal.form(left, known)),
-        };
+        let left = quantities.as_ref().and_then(|known| self.goal.form(left, known));
         let right_form = quantities.and_then(|known| self.goal.form(right, &known));
         let right = right_form.filter(|_| is_long_shown || right.terms().len() <= SHOWN_OF_ROUNDING);
         Forms { left, right, sums }
-    }
-
-    /// Returns the lines about the signs of lemmas that are not evident.
-    fn lemmas(&self, certificate: &Certificate) -> Vec<String> {
-        let lemmas = certificate.known.iter().filter_map(|known| match known {
-            Known::Lemma(lemma) if !lemma.1.known.is_empty() => Some(lemma),
-            _ => None,
-        });
-        lemmas.flat_map(|lemma| self.sign("", &lemma.0, &[], &Reason::Certificate(lemma.1.clone()))).collect()
     }
 
     /// Formats the identity of a certificate: `c times it is …`.
