@@ -262,8 +262,8 @@ fn distinct(fitting: impl Iterator<Item = (&'static Mistake, Option<Exact>)>) ->
 
 /// Adds penalties that are different for all systems, as multiples of c.
 pub(super) fn with_penalties(mut problems: Vec<Problem>) -> Vec<Problem> {
-    for (i, problem) in problems.iter_mut().enumerate() {
-        problem.penalty = Some(&problem.system.c * Exact::from(i as i32 + 2));
+    for (multiple, problem) in (2..).zip(&mut problems) {
+        problem.penalty = Some(&problem.system.c * Exact::from(multiple));
     }
     problems
 }

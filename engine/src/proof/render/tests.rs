@@ -277,6 +277,23 @@ fn a_sum_of_more_than_three_terms_has_a_name_in_cases() {
 }
 
 #[test]
+fn long_formulas_are_not_repeated() {
+    let value = |n: i32| {
+        let sum = sum_of_symbols(9) + Tree::from(n) * Tree::symbol("j");
+        lines(equal("", in_cases(&sum), &sum), &[]).remove(1)
+    };
+    let [forty, more] = [10, 100].map(|n| format!("a + b + c + d + e + f + g + h + i + {n} j"));
+    assert_eq!(forty.len(), 40);
+    assert_eq!(value(10), format!("  ⟨{forty}⟩ = {forty}"));
+    assert_eq!(value(100), format!("  ⟨…⟩ = … for {more}"));
+    let sum = sum_of_symbols(13);
+    assert_eq!(
+        lines(equal("", &sum + &sum, Tree::from(2) * &sum), &[]),
+        ["both sides are a sum of 13 terms"]
+    );
+}
+
+#[test]
 fn cases_of_a_function_have_its_name() {
     let symbols = ["a", "b", "c", "d"];
     let sum = sum_of_symbols(4);

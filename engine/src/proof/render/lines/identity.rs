@@ -1,6 +1,6 @@
 //! Identities as text: each certificate is a line about the sign of a quotient.
 
-use super::{End, PLACE, SHOWN_OF_CASE, SHOWN_OF_ROUNDING, sign_text};
+use super::{End, PLACE, SHOWN_OF_CASE, sign_text};
 use crate::formula::symbols::subscripted;
 use crate::number::Tree;
 use crate::proof::check::{Atom, Certificate, Known, Polynomial, Quotient, Reason, Sign};
@@ -85,7 +85,7 @@ impl End<'_> {
             return by.pop();
         }
         let written = self.goal.form(of, &[]);
-        let mut forms = self.forms(&certificate, is_one || written.is_some());
+        let mut forms = self.forms(&certificate);
         let line = match forms.right.take_if(|_| is_one) {
             Some(right) => {
                 let written = match reason {
@@ -122,15 +122,14 @@ impl End<'_> {
         }
     }
 
-    /// Returns the forms of a certificate; a long right form only if `is_long_shown`.
-    fn forms(&self, certificate: &Certificate, is_long_shown: bool) -> Forms {
+    /// Returns the forms of a certificate.
+    fn forms(&self, certificate: &Certificate) -> Forms {
         let Certificate { known, left, right } = certificate;
         let mut sums = Vec::new();
         let quantities: Option<Vec<_>> =
             known.iter().map(|known| Some(self.goal.factor(&self.known(known)?, &mut sums))).collect();
         let left = quantities.as_ref().and_then(|known| self.goal.form(left, known));
-        let right_form = quantities.and_then(|known| self.goal.form(right, &known));
-        let right = right_form.filter(|_| is_long_shown || right.terms().len() <= SHOWN_OF_ROUNDING);
+        let right = quantities.and_then(|known| self.goal.form(right, &known));
         Forms { left, right, sums }
     }
 
