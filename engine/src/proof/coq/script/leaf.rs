@@ -57,7 +57,7 @@ pub(super) fn text(of: &Polynomial) -> String {
     for (powers, coefficient) in of.terms() {
         let factors = powers.iter().zip(b'?'..).filter(|(n, _)| **n > 0);
         let factors = factors.map(|(n, x)| format!("{}{}", char::from(x), unless_one((*n).into())));
-        let sign = if *coefficient < 0 { '-' } else { '+' };
+        let sign = if coefficient.is_negative() { '-' } else { '+' };
         let number = unless_one(coefficient.unsigned_abs());
         terms.push(format!("{sign}{number}{}", factors.collect::<String>()));
     }
