@@ -301,7 +301,7 @@ impl<'w, 'p> Writer<'w, 'p> {
                 self.divisors.push(factors);
                 continue;
             };
-            let square = (is_smooth && !numbers.is_empty()).then(|| [&numbers[..], &numbers].concat());
+            let square = is_smooth.then(|| [&numbers[..], &numbers].concat());
             for factors in (numbers.len() != 1).then_some(numbers).into_iter().chain(square) {
                 let step = format!("Divisor {}%nat", list(&factors));
                 if !self.steps.contains(&step) {
@@ -423,7 +423,7 @@ impl Script {
         let (mut values, mut slopes) = (Vec::new(), Vec::new());
         for (y, atom) in target.problem.table.atoms().iter().enumerate() {
             let tree = match atom {
-                Atom::Own(symbol) if rise.of.degree(y) > 0 => Tree::symbol(symbol),
+                Atom::Own(symbol) => Tree::symbol(symbol),
                 Atom::Exponential(of) if rise.of.degree(y) > 0 => target.problem.table.formula(*of)?.exp(),
                 // It does not occur in the function.
                 _ => Tree::from(0),
