@@ -374,6 +374,8 @@ mod tests {
         let unlike = "an exponential is not that of a constant rate, or has a factor that grows";
         assert_eq!(vanishes(&t * (-&a * &t).exp()).unwrap(), unlike);
         assert_eq!(vanishes((-&a * &t * &t).exp()).unwrap(), unlike);
+        let once = (-&a * &t).exp();
+        assert_eq!(vanishes(&once * &once).unwrap(), unlike);
     }
 
     #[test]

@@ -48,6 +48,14 @@ pub fn claims() -> Vec<Statement> {
             .assuming([&lens_f, &lens_g, &shorter]),
         limit("far-side", one() / (one() / &f + one() / &g), &g, &f, Rate::Equal(-(&f * &f / (&g + &f))))
             .assuming([&lens_f, &lens_g]),
+        limit(
+            "with-constant",
+            (-&a).exp() * &g / (&g + &f),
+            &g,
+            (-&a).exp(),
+            Rate::Equal((-&a).exp() * &f / (&g + &f) * Tree::int(-1)),
+        )
+        .assuming([&lens_f, &lens_g]),
         within("negative-divisor", once(&(&a / (&b - &c))), &a / (&c - &b) / &n)
             .assuming([&stiff_a, &above_c]),
         within("opposite-divisor", once(&(&a / -&b)), &a / &b / &n).assuming([&stiff_a, &stiff_b]),

@@ -11,49 +11,8 @@ Definition fact : Type := poly * kind.
 Definition holds (env : list R) (a : fact) : Prop := of_kind (snd a) (value env (fst a)).
 Definition get (facts : list fact) (i : nat) : fact := nth i facts (Const 0, Zero).
 
-(** How a polynomial is expressed by facts: the n-th variable occurs in it up to the power [d], and is eliminated
-    by the k-th quantity, which becomes a variable; or all is divided by the variable. *)
-Inductive solution := Solve (n k d : nat) | Divide (n : nat).
-
 (** An identity l f = r for a polynomial f. Its variables are those of f, and then facts. *)
-Inductive certificate :=
-  | identity (facts : list nat) (left right : string)
-  | solved (facts : list nat) (left : string) (ways : list solution).
-
-(** With a number for the n-th variable. *)
-Fixpoint put (n : nat) (z : Z) (p : poly) : poly :=
-  match n, p with
-  | _, Const y => Const y
-  | O, Grow p q => add (grow p (Const 0)) (scale z (put O z q))
-  | S n, Grow p q => grow (put n z p) (put (S n) z q)
-  end.
-
-(** The n-th variable divided out. *)
-Fixpoint divide (n : nat) (p : poly) : poly :=
-  match n, p with
-  | _, Const y => Const y
-  | O, Grow _ q => q
-  | S n, Grow p q => grow (divide n p) (divide (S n) q)
-  end.
-
-(** A polynomial of degree [d] in the n-th variable, times [c]^[d], if [c] times the variable is [b]. *)
-Fixpoint substitute (values : list poly) (n : nat) (c b : poly) (d : nat) (p : poly) : poly :=
-  match n, p with
-  | _, Const z => scale z (power c d)
-  | O, Grow p q => add (mul (power c d) (compose (tl values) p)) (mul b (substitute values O c b (pred d) q))
-  | S n, Grow p q =>
-      add (substitute (tl values) n c b d p) (mul (hd (Const 0) values) (substitute values (S n) c b d q))
-  end.
-
-Definition step_of_solution (all : list fact) (f : poly) (s : solution) : poly :=
-  match s with
-  | Solve n k d =>
-      let p := fst (get all k) in
-      let b := put n 0 p in
-      substitute (map variable (seq 0 (length all))) n
-        (add (put n 1 p) (times (-1) b)) (add (variable k) (times (-1) b)) d f
-  | Divide n => divide n f
-  end.
+Inductive certificate := identity (facts : list nat) (left right : string).
 
 (** A variable, with what facts say of it. *)
 Definition stronger (j k : kind) : kind :=
@@ -88,10 +47,9 @@ Fixpoint position (n : nat) (l : list nat) : nat :=
 
 (** The sign of [f], whose variables are the first [n]. *)
 Definition certified (n : nat) (facts : list fact) (f : poly) (c : certificate) : kind :=
-  let '(known, a) := match c with identity l a _ | solved l a _ => (l, a) end in
+  let 'identity known a b := c in
   let all := map (symbol facts) (seq 0 n) ++ map (get facts) known in
-  let l := polynomial a in
-  let r := match c with identity _ _ b => polynomial b | solved _ _ ways => fold_left (step_of_solution all) ways f end in
+  let (l, r) := (polynomial a, polynomial b) in
   let order := arranged all l r in
   let places := map (fun n => variable (position n order)) (seq 0 (length all)) in
   let (values, kinds) := (map (fun n => fst (get all n)) order, map (fun n => snd (get all n)) order) in
@@ -318,9 +276,8 @@ Qed.
 
 Lemma of_certificate n f c : of_kind (certified n facts f c) (value env f).
 Proof.
-  unfold certified. destruct (match c with identity l a _ | solved l a _ => (l, a) end) as [known a].
-  set (all := map (symbol facts) (seq 0 n) ++ map (get facts) known).
-  set (r := match c with identity _ _ _ => _ | _ => _ end). set (order := arranged all _ r).
+  unfold certified. destruct c as [known a b].
+  set (all := map (symbol facts) (seq 0 n) ++ map (get facts) known). set (order := arranged all _ _).
   destruct (is_strict _ && poly_beq _ _) eqn:E; [ | exact I]. apply andb_prop in E as [S E].
   apply (same_value _ _ env) in E. rewrite value_mul, !(value_compose env _ (map _ order)) in E.
   assert (A : Forall (holds env) all).

@@ -6,7 +6,6 @@
 
 mod leaf;
 mod limit;
-mod solution;
 
 use super::expr::Expr;
 use super::lemma::{Lemma, Result};

@@ -7,7 +7,7 @@ From Coquelicot Require Export Coquelicot.
 From LIBRARY Require Import A_Polynomials.
 From LIBRARY Require A_Quotients.
 Export A_Polynomials(value, polynomial).
-Export A_Quotients(Shown, Divisor, identity, solved, Solve, Divide, Known, By).
+Export A_Quotients(Shown, Divisor, identity, Known, By).
 Export ListNotations.
 Open Scope R_scope.
 

@@ -2,7 +2,6 @@
 
 use super::super::lemma::{Result, spaced};
 use super::super::print::simplified;
-use super::solution::Solution;
 use super::{Script, Target};
 use crate::formula::statement::Proposition;
 use crate::number::{Exponential, Tree};
@@ -230,13 +229,6 @@ impl<'w, 'p> Writer<'w, 'p> {
         Ok(Some(format!("ordered _ _ _ _ _ _ P F{a} F{b}")))
     }
 
-    /// Leaves out a fact that a certificate shows.
-    pub(super) fn skip(&mut self, fact: usize) -> Result<()> {
-        self.catch_up(fact)?;
-        self.numbers.push(None);
-        Ok(())
-    }
-
     /// Writes a step of the checker.
     pub(super) fn step(&mut self, step: &Step) -> Result<()> {
         match step {
@@ -321,15 +313,13 @@ impl<'w, 'p> Writer<'w, 'p> {
 
     /// Adds what a certificate shows, and returns the number of the fact.
     fn certified(&mut self, of: &Polynomial, certificate: &Certificate) -> Result<usize> {
-        let certificate = self.certificate(of, certificate)?;
+        let certificate = self.certificate(certificate)?;
         Ok(self.add_fact(format!("Shown {} {certificate}", text(of))))
     }
 
-    /// Returns a certificate for a polynomial as an argument, after adding the lemmas in it.
-    fn certificate(&mut self, of: &Polynomial, certificate: &Certificate) -> Result<String> {
-        let solution = Solution::find(of, certificate, self.state);
-        let Certificate { known, left, right } =
-            solution.as_ref().map_or(certificate, |solution| &solution.certificate);
+    /// Returns a certificate as an argument, after adding the lemmas in it.
+    fn certificate(&mut self, certificate: &Certificate) -> Result<String> {
+        let Certificate { known, left, right } = certificate;
         let mut numbers = Vec::new();
         for quantity in known {
             let number = match quantity {
@@ -345,11 +335,7 @@ impl<'w, 'p> Writer<'w, 'p> {
             };
             numbers.push(number.to_string());
         }
-        let (known, left) = (list(numbers), text(left));
-        Ok(match &solution {
-            Some(Solution { steps, .. }) => format!("(solved {known}%nat {left} {})", list(steps)),
-            None => format!("(identity {known}%nat {left} {})", text(right)),
-        })
+        Ok(format!("(identity {}%nat {} {})", list(numbers), text(left), text(right)))
     }
 
     /// Returns the reason for the sign of a goal as an argument.
@@ -358,8 +344,8 @@ impl<'w, 'p> Writer<'w, 'p> {
             Step::Sign { of, reason, .. } if of.is_zero() || matches!(reason, Reason::Fact(_)) => {
                 Ok("Known".into())
             }
-            Step::Sign { of, reason: Reason::Certificate(certificate), .. } => {
-                Ok(format!("By {}", self.certificate(of, certificate)?))
+            Step::Sign { reason: Reason::Certificate(certificate), .. } => {
+                Ok(format!("By {}", self.certificate(certificate)?))
             }
             _ => Err("a goal without a sign".into()),
         }

@@ -169,13 +169,12 @@ impl Limit<'_> {
         script.line(&format!("intros {name} X."));
         script.names(&target, |_| true)?;
         let mut writer = Writer::new(&target, self.state, self.leaf, |_| true)?;
-        let variable = Polynomial::variable(self.x)?;
         writer.add_fact("X".into());
         for step in self.steps {
             writer.step(step)?;
         }
         let factors = self.of.den.iter().filter_map(|i| self.state.facts.get(*i).ok());
-        writer.divide(factors.map(|(of, _)| of.clone()).filter(|of| *of != variable).collect());
+        writer.divide(factors.map(|(of, _)| of.clone()).collect());
         writer.finish()?;
         if let Some((y, rate)) = decaying {
             writer.equate(format!("same_exponential ({rate} * {name}) _ _ _ eq_refl F{y}"));
@@ -189,10 +188,8 @@ impl Limit<'_> {
         script.names(&self.target, |y| !self.is_variable(y))?;
         let mut writer = Writer::new(&self.target, self.state, self.leaf, |y| !self.is_variable(y))?;
         for step in self.steps {
-            match step {
-                Step::Sign { of, .. } if !self.depends(of) => writer.step(step)?,
-                Step::Sign { reason: Reason::Certificate(_), facts, .. } => writer.skip(*facts)?,
-                _ => {}
+            if let Step::Sign { .. } = step {
+                writer.step(step)?;
             }
         }
         let end = end(&mut writer)?;
