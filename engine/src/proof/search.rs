@@ -282,11 +282,11 @@ impl<'a> Attempt<'a> {
     fn read(&self, reader: &mut Reader<'a, Search<'a>>, decisions: &[Decision]) -> Result<(), Failure> {
         let cases: Vec<_> = decisions.iter().filter_map(case).collect();
         reader.assume_cases(&cases);
-        let (order, mut bounded) = (self.order(), BTreeSet::new());
+        let (order, mut read) = (self.order(), BTreeSet::new());
         for (position, i) in order.iter().enumerate() {
             reader.source.follow(position, decisions);
             let hypothesis = self.problem.hypotheses[*i];
-            if hypothesis.interval().is_some_and(|(x, ..)| !bounded.insert(x)) {
+            if hypothesis.interval().is_some_and(|(x, ..)| !read.insert(x)) {
                 continue;
             }
             reader.assume(*i)?;

@@ -103,26 +103,36 @@ impl Order<'_> {
     }
 }
 
+impl Quantity {
+    fn order<'a>(&'a self, factors: &'a [&'static str]) -> Order<'a> {
+        Order { context: &self.context, factors }
+    }
+
+    fn formula(&self, factors: &[&'static str]) -> String {
+        self.order(factors).ratio_or_size(&self.value)
+    }
+}
+
 /// Explains a failed proof, with formulas formatted by `text`, and the order of factors.
 pub(super) fn justify(of: &ProofError, text: &dyn Fn(&Tree) -> String, factors: &[&'static str]) -> String {
     use ProofError::*;
-    let ratio = |of: &Quantity| Order { context: &of.context, factors }.ratio_or_size(&of.value);
     match of {
         Premise(premise) => premise.to_string(),
         PossibleZeroDivisor(of, value) if value.value.is_zero() => format!("the divisor {} is 0", text(of)),
         PossibleZeroDivisor(of, value) => {
             let is_as_written = value.symbols().into_iter().map(Symbol::name).eq(of.symbols());
-            let reduced = if is_as_written { String::new() } else { format!(" = {}", ratio(value)) };
+            let reduced =
+                if is_as_written { String::new() } else { format!(" = {}", value.formula(factors)) };
             format!("the divisor {}{reduced} might be 0", text(of))
         }
-        UndecidedBranch(value) => format!("the sign of {} is undecided", ratio(value)),
+        UndecidedBranch(value) => format!("the sign of {} is undecided", value.formula(factors)),
         UnknownSign(value) => {
-            let order = Order { context: &value.context, factors };
-            format!("no rule finds the sign of {}{}", ratio(value), order.obstacles(&value.value))
+            let obstacles = value.order(factors).obstacles(&value.value);
+            format!("no rule finds the sign of {}{obstacles}", value.formula(factors))
         }
-        WrongSign(value, sign) => format!("{} is {}", ratio(value), sign_text(*sign)),
-        Unequal(value) => format!("the sides differ by {}", ratio(value)),
-        UnknownLimit(value) => format!("no rule finds that {} has the stated limit", ratio(value)),
+        WrongSign(value, sign) => format!("{} is {}", value.formula(factors), sign_text(*sign)),
+        Unequal(value) => format!("the sides differ by {}", value.formula(factors)),
+        UnknownLimit(value) => format!("no rule finds that {} has the stated limit", value.formula(factors)),
         NotDifferentiable => "⟨·⟩ and min are not differentiable at kinks".to_string(),
         TooLarge(most) => format!("its proof exceeds the limit of {most} terms"),
         NotExpressed(reason) => format!("its proof cannot be checked: {reason}"),
@@ -181,7 +191,7 @@ impl fmt::Display for ProofError {
 /// Writes the formula, with factors sorted by name.
 impl fmt::Debug for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(&Order { context: &self.context, factors: &[] }.ratio_or_size(&self.value))
+        f.write_str(&self.formula(&[]))
     }
 }
 
