@@ -14,6 +14,7 @@ use spring_mass_contact::number::{Exact, Exponential, Field, PositivePart, Tree}
 use spring_mass_contact::proof::prove;
 use spring_mass_contact::proof::render::ProofPrinter;
 use std::collections::BTreeMap;
+use std::iter;
 use std::sync::LazyLock;
 
 /// An exponential is not rational: any function without accidental zeros or repetitions can replace it.
@@ -72,7 +73,8 @@ static SYMBOLS: LazyLock<Vec<&str>> = LazyLock::new(|| {
     let of_proofs = of_proofs.into_iter().map(|name| &*name.leak());
     let own = OWN.into_iter().chain(MEMBERS).chain(of_proofs);
     let mut all: Vec<_> = own.chain(of_formulas).chain(of_claims).collect();
-    all.sort_by_key(|name| std::cmp::Reverse(name.len()));
+    all.sort_by_key(|name| (std::cmp::Reverse(name.len()), *name));
+    all.dedup();
     all
 });
 static NO_NAMES: LazyLock<Registry> = LazyLock::new(Registry::default);
@@ -268,25 +270,53 @@ fn replayed_at(tree: &Tree, at: &dyn Fn(&str) -> Exact) -> Option<Exact> {
 /// Symbols in sampled trees. k is the index of steps unless another quantity is named k.
 const OWN: [&str; 11] = ["a", "b", "u", "k", "ρ", "λ₀", "ρᵏ", "u_{k+1}", "2ᵖ", "2ᵃ", POWER];
 
+/// An operation with its relative frequency, which takes its operands from the last results.
+type Operation = (usize, fn(&mut dyn FnMut() -> Tree) -> Tree);
+
+/// Sums of formulas in reverse Polish notation, of fewer than `end` leaves and operations. Nested unions of strategies
+/// would take most of a test's time.
+fn composed(leaves: Vec<Tree>, operations: &[Operation], end: usize) -> BoxedStrategy<Tree> {
+    let operations = operations.iter().flat_map(|(often, operation)| iter::repeat_n(*operation, *often));
+    let operations: Vec<_> = operations.collect();
+    let steps = prop::collection::vec((any::<bool>(), any::<usize>()), 1..end);
+    let sum = steps.prop_map(move |steps| {
+        let mut results = Vec::new();
+        for (is_operation, i) in steps {
+            let mut operand = || results.pop().unwrap_or_else(|| leaves[0].clone());
+            let result = match is_operation {
+                true => operations[i % operations.len()](&mut operand),
+                false => leaves[i % leaves.len()].clone(),
+            };
+            results.push(result);
+        }
+        results.into_iter().reduce(|a, b| a + b).expect("there is a step")
+    });
+    sum.boxed()
+}
+
+fn squared(x: &Tree) -> Tree {
+    x * x
+}
+
 fn trees() -> BoxedStrategy<Tree> {
-    let symbol = prop::sample::select(&OWN).prop_map(|name| Tree::symbol(name));
-    let leaf = prop_oneof![3 => symbol, 1 => (-3..4).prop_map(Tree::int)];
-    leaf.prop_recursive(6, 40, 2, |inner| {
-        let pair = (inner.clone(), inner.clone());
-        prop_oneof![
-            3 => pair.clone().prop_map(|(a, b)| a + b),
-            3 => pair.clone().prop_map(|(a, b)| a - b),
-            4 => pair.clone().prop_map(|(a, b)| a * b),
-            2 => pair.clone().prop_map(|(a, b)| a / b),
-            1 => pair.prop_map(|(a, b)| a.min(&b)),
-            2 => inner.clone().prop_map(|a| -a),
-            1 => inner.clone().prop_map(|a| &a * &a),
-            1 => inner.clone().prop_map(|a| a.exp()),
-            1 => inner.clone().prop_map(|a| a.abs()),
-            1 => inner.prop_map(|a| a.positive_part()),
-        ]
-    })
-    .boxed()
+    let symbols = OWN.into_iter().chain(OWN).map(|name| Tree::symbol(name));
+    let leaves = symbols.chain((-3..4).map(Tree::int)).collect();
+    composed(
+        leaves,
+        &[
+            (3, |x| x() + x()),
+            (3, |x| x() - x()),
+            (4, |x| x() * x()),
+            (2, |x| x() / x()),
+            (1, |x| x().min(&x())),
+            (2, |x| -x()),
+            (1, |x| squared(&x())),
+            (1, |x| x().exp()),
+            (1, |x| x().abs()),
+            (1, |x| x().positive_part()),
+        ],
+        20,
+    )
 }
 
 /// Trees with roundings: of all operations, of some, or of the last only.
@@ -803,22 +833,18 @@ impl Lines {
 /// Claims that may be proved: equal formulas, squares, and bounds from hypotheses.
 fn provable() -> impl Strategy<Value = Statement> {
     let [a, b, u, k] = ["a", "b", "u", "k"].map(|name| Tree::symbol(name));
-    let leaf = prop_oneof![
-        4 => prop::sample::select(vec![a.clone(), b.clone(), u.clone(), k.clone()]),
-        1 => (-3..4).prop_map(Tree::int)
-    ];
-    let below = &a + &b;
-    let polynomial = leaf.prop_recursive(4, 12, 2, move |inner| {
-        let below = below.clone();
-        let pair = (inner.clone(), inner.clone());
-        prop_oneof![
-            2 => pair.clone().prop_map(|(x, y)| x + y),
-            2 => pair.clone().prop_map(|(x, y)| x - y),
-            3 => pair.prop_map(|(x, y)| x * y),
-            1 => inner.clone().prop_map(move |x| x / &below),
-            1 => inner.prop_map(|x| -x),
-        ]
-    });
+    let leaves = [&a, &b, &u, &k].into_iter().cycle().take(24).cloned().chain((-3..4).map(Tree::int));
+    let polynomial = composed(
+        leaves.collect(),
+        &[
+            (2, |x| x() + x()),
+            (2, |x| x() - x()),
+            (3, |x| x() * x()),
+            (1, |x| x() / (Tree::symbol("a") + Tree::symbol("b"))),
+            (1, |x| -x()),
+        ],
+        12,
+    );
     (polynomial.clone(), polynomial, 0..6, any::<bool>()).prop_map(move |(x, y, kind, more)| {
         let sign = |relation, of: &Tree| Hypothesis::new(relation, of.clone());
         let [of_a, of_b] = [&a, &b].map(|of| sign(Relation::Positive, of));

@@ -9,6 +9,7 @@ use crate::number::tree::{Op, piecewise_ops};
 use crate::number::{Exact, PositivePart, Tree};
 use crate::proof::mutation::mutated;
 use num_traits::Zero;
+use std::cell::Cell;
 
 /// u in m and N in N, as formulas.
 pub(super) type Formulas = [Tree; 2];
@@ -560,9 +561,15 @@ pub(super) fn value<T: PositivePart>(
     system: &SpringMass<T>,
     constants: &Constants<T>,
 ) -> Option<T> {
-    let all = tree.symbols().into_iter().all(|name| constants.symbol(name, system).is_some());
-    let symbol = |name| constants.symbol(name, system).expect("known").clone();
-    if all { tree.eval(&symbol, &piecewise_ops) } else { None }
+    let is_known = Cell::new(true);
+    let symbol = |name| match constants.symbol(name, system) {
+        Some(value) => value.clone(),
+        None => {
+            is_known.set(false);
+            T::zero()
+        }
+    };
+    tree.eval(&symbol, &piecewise_ops).filter(|_| is_known.get())
 }
 
 impl<'a, T> Constants<'a, T> {
