@@ -430,7 +430,7 @@ fn brackets(text: &str) -> Vec<(usize, &str)> {
 
 #[test]
 fn a_text_has_the_value_of_its_tree() {
-    holds_often(16, trees(), |tree| {
+    holds_often(32, trees(), |tree| {
         if let Some(expected) = replayed(tree) {
             assert_eq!(Reader::value(tree), Some(expected), "{}", tree);
         }
@@ -439,7 +439,7 @@ fn a_text_has_the_value_of_its_tree() {
 
 #[test]
 fn latex_has_the_value_of_its_tree() {
-    holds_often(16, trees(), |tree| {
+    holds_often(32, trees(), |tree| {
         if let Some(expected) = replayed(tree) {
             let latex = tree.latex();
             assert!(!latex.contains(['²', '·', 'ᵖ', '−']), "{}", latex);
@@ -455,7 +455,7 @@ fn latex_has_the_value_of_its_tree() {
 
 #[test]
 fn a_text_with_rounding_has_the_value_of_its_tree() {
-    holds_often(16, rounded_trees(), |tree| {
+    holds_often(32, rounded_trees(), |tree| {
         if let Some(expected) = replayed(tree) {
             assert_eq!(Reader::value(tree), Some(expected), "{}", tree);
         }
@@ -465,7 +465,7 @@ fn a_text_with_rounding_has_the_value_of_its_tree() {
 #[test]
 fn a_text_has_no_redundant_signs_or_brackets() {
     let defined = trees().prop_filter("divides by zero", |tree| replayed(tree).is_some());
-    holds_often(16, defined, |tree| {
+    holds_often(32, defined, |tree| {
         let text = tree.to_string();
         for idle in ["−−", "− −", "+ −", "+ 0", "− 0"] {
             assert!(!text.contains(idle), "{}", text);
@@ -742,14 +742,14 @@ fn claims() -> impl Strategy<Value = Statement> {
 
 #[test]
 fn the_text_of_a_hypothesis_has_the_values_of_its_formulas() {
-    holds_often(8, hypotheses(), |hypothesis| {
+    holds_often(16, hypotheses(), |hypothesis| {
         Text(&hypothesis.to_string(), &NO_NAMES, &[]).is_hypothesis(hypothesis);
     });
 }
 
 #[test]
 fn the_text_of_a_claim_has_the_values_of_its_formulas() {
-    holds_often(8, claims(), |claim| {
+    holds_often(16, claims(), |claim| {
         Text(&ProofPrinter::new(&NO_NAMES).claim(claim), &NO_NAMES, &[]).is_claim(claim);
     });
 }
@@ -889,8 +889,8 @@ fn every_line_of_a_proof_holds_at_numbers() {
         let mut lines = Lines { known, values };
         held.set(held.get() + said.iter().map(|line| lines.holds(line)).sum::<usize>());
     };
-    holds_often(16, provable(), law);
-    assert!(held.get() > 16 * cases() as usize, "only {} lines are about formulas", held.get());
+    holds_often(32, provable(), law);
+    assert!(held.get() > 32 * cases() as usize, "only {} lines are about formulas", held.get());
 }
 
 #[test]
@@ -912,7 +912,7 @@ fn spring(a: &Tree, b: &Tree, c: &Tree) -> Tree {
 /// Calls with two arguments that may be omitted, also nested.
 #[test]
 fn an_abbreviated_call_has_the_value_of_its_tree() {
-    holds_often(5, (prop::collection::vec(trees(), 3), 0..8, any::<bool>()), |(drawn, usual, twice)| {
+    holds_often(10, (prop::collection::vec(trees(), 3), 0..8, any::<bool>()), |(drawn, usual, twice)| {
         let [a, b, c] = ["a", "b", "u"].map(|name| Tree::symbol(name));
         let formula = Formula::new("spring", "S", &["a", "b", "u"], spring(&a, &b, &c)).abbreviated();
         let names = Registry::new(&OWN, vec![formula]).with_implicit(&["b", "u"]);

@@ -76,4 +76,13 @@ mod tests {
             assert_eq!(text(relation, value), written);
         }
     }
+
+    #[test]
+    fn a_named_negation_is_not_taken_apart() {
+        let opposite = -Tree::symbol("c");
+        let name = |tree: &Tree| {
+            (*tree == opposite).then(|| Name { symbol: "S".to_string(), arguments: Vec::new() })
+        };
+        assert_eq!(Hypothesis::new(Relation::Positive, opposite.clone()).typeset(&name), "S > 0");
+    }
 }

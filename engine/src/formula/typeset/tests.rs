@@ -203,6 +203,7 @@ fn the_text_shows_which_operations_are_rounded() {
         ((&a * &b * &a).with_rounding(), "fl(fl(a b) a)", r"\mathrm{fl}(\mathrm{fl}(a\,b)\,a)"),
         ((&a * &b * n(3)).with_rounding(), "fl(3 fl(a b))", r"\mathrm{fl}(3 \mathrm{fl}(a\,b))"),
         ((n(1) * &a + &b).with_rounding(), "fl(fl(a) + b)", r"\mathrm{fl}(\mathrm{fl}(a) + b)"),
+        ((&a / n(1) + &b).with_rounding(), "fl(fl(a) + b)", r"\mathrm{fl}(\mathrm{fl}(a) + b)"),
         ((a.round() + &b).round(), "fl(fl(a) + b)", r"\mathrm{fl}(\mathrm{fl}(a) + b)"),
         (((a.round() * &b).round() * &a).round(), "fl(fl(a) b a)", r"\mathrm{fl}(\mathrm{fl}(a)\,b\,a)"),
         ((&a * &b / &c).with_rounding(), "fl(a b / c)", r"\mathrm{fl}\left(\frac{a\,b}{c}\right)"),
