@@ -4,7 +4,7 @@
 use crate::strategies::*;
 use num_traits::One;
 use spring_mass_contact::claims::{computed, registry};
-use spring_mass_contact::eval::{Domain, Evaluation, Quantity};
+use spring_mass_contact::eval::{Domain, Evaluation};
 use spring_mass_contact::number::tree::{Op, all_ops};
 use spring_mass_contact::number::{Ball, Dual, Exponential, Field, Program, Tree};
 use spring_mass_contact::operators;
@@ -59,18 +59,11 @@ impl<T: Field> PositivePart for Filled<T> {
 /// The operations of a number system themselves.
 struct Own<T>(PhantomData<T>);
 
-/// A number that is not compared.
-#[derive(Clone)]
-struct Number<T>(T);
-
-impl<T: Clone> Quantity for Number<T> {}
-
 impl<T: PositivePart + Exponential> Domain for Own<T> {
-    type Value = Number<T>;
+    type Value = T;
 
-    fn apply(&self, op: Op<&Number<T>>) -> Option<Number<T>> {
-        let op = op.map(|Number(x)| x);
-        op.arithmetic().or_else(|| all_ops(op)).map(Number)
+    fn apply(&self, op: Op<&T>) -> Option<T> {
+        op.arithmetic().or_else(|| all_ops(op))
     }
 }
 
@@ -93,15 +86,11 @@ fn law<T: PositivePart + Exponential, B: PartialEq + Debug>(
         rounds.run(&all_ops).expect("everything is known");
     }
     let (domain, by_function) = (Own(PhantomData), computed(symbol));
-    let values = Evaluation::of(&program, &domain, |name| Number(symbol(name)));
+    let values = Evaluation::of(&program, &domain, symbol);
     assert_eq!(by_function.len(), registry().formulas().len());
     for ((formula, place), expected) in registry().formulas().iter().zip(places).zip(&by_function) {
         let (expected, name) = (bits(expected), formula.name());
-        assert_eq!(
-            values.at(place).map(|Number(x)| bits(x)).as_ref(),
-            Some(&expected),
-            "{name} as a program"
-        );
+        assert_eq!(values.at(place).map(&bits).as_ref(), Some(&expected), "{name} as a program");
         assert_eq!(bits(&rounds[place]), expected, "{name} in rounds of {varying:?}");
         // A record that divides by 0 replays to nothing.
         if let Some(by_record) = formula.tree.eval(symbol, &all_ops) {

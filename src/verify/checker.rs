@@ -153,7 +153,7 @@ fn message(panic: &(dyn Any + Send)) -> String {
 }
 
 /// Number system in which claims are checked.
-pub(super) trait NumberDomain: Domain + Sync {
+pub(super) trait NumberDomain: Domain<Value: Quantity> + Sync {
     /// Numbers of the experiments.
     type Number: Scalar + ToExact + Debug;
 

@@ -1,6 +1,6 @@
 //! Floats that round every result, with the exact values of what is not rounded.
 
-use super::domain::{Domain, Quantity, Value};
+use super::domain::{Domain, Value};
 use super::evaluation::Evaluation;
 use crate::number::tree::{Op, piecewise_ops};
 use crate::number::{Exact, Real, ToExact};
@@ -47,8 +47,6 @@ impl<T: Real + ToExact> Floats<T> {
         (Real::is_finite(&value) && is_normal).then_some(value)
     }
 }
-
-impl<T: Real> Quantity for Option<T> {}
 
 impl<T: Real + ToExact> Domain for Floats<T> {
     type Value = Option<T>;

@@ -7,22 +7,16 @@ use num_traits::{One, Zero};
 use std::cmp::Ordering;
 use std::fmt;
 
-/// Knowledge of a number. By default, it is not compared with others.
-pub trait Quantity: Clone {
+/// Knowledge of a number, which decides statements.
+pub trait Quantity {
     /// Returns the sign of the number if it is certain.
-    fn sign(&self) -> Option<Ordering> {
-        None
-    }
+    fn sign(&self) -> Option<Ordering>;
 
     /// Returns whether two numbers are equal; of enclosures, whether they may be.
-    fn is_equal(&self, _other: &Self) -> Option<bool> {
-        None
-    }
+    fn is_equal(&self, other: &Self) -> Option<bool>;
 
     /// Returns whether the number is at most a bound in absolute value, if this is certain.
-    fn is_within(&self, _bound: &Self) -> Option<bool> {
-        None
-    }
+    fn is_within(&self, bound: &Self) -> Option<bool>;
 
     /// Returns the number, if it is known exactly. Limits are evaluated for such numbers only.
     fn exact(&self) -> Option<&Exact> {
@@ -35,10 +29,10 @@ pub trait Quantity: Clone {
     }
 }
 
-/// Numbers in which statements are evaluated.
+/// Numbers in which formulas are evaluated.
 pub trait Domain {
     /// A number.
-    type Value: Quantity;
+    type Value: Clone;
 
     /// Returns the result of an operation that is not a symbol; `None` if it is undefined.
     fn apply(&self, op: Op<&Self::Value>) -> Option<Self::Value>;

@@ -274,6 +274,20 @@ impl<'a, D: Domain, S: Fn(&'static str) -> D::Value> Evaluation<'a, D, S> {
         }
     }
 
+    /// Returns the divisor because of which a formula is undefined, an innermost one.
+    fn zero_divisor(&self, place: usize) -> Option<Tree> {
+        if self.at(place).is_some() {
+            return None;
+        }
+        let op = &self.program.ops()[place];
+        op.operands().find_map(|operand| self.zero_divisor(*operand)).or_else(|| match op {
+            Op::Div(_, divisor) => Some(self.program.formula(*divisor)),
+            _ => None,
+        })
+    }
+}
+
+impl<D: Domain<Value: Quantity>, S: Fn(&'static str) -> D::Value> Evaluation<'_, D, S> {
     /// Returns the verdict of all tests, each with its part of the claim: the first failure, if there is one.
     /// Without tests it is undecided.
     pub fn verdict<'t>(
@@ -344,18 +358,6 @@ impl<'a, D: Domain, S: Fn(&'static str) -> D::Value> Evaluation<'a, D, S> {
     fn are_equal(&self, pairs: &[[usize; 2]]) -> bool {
         let mut outcomes = pairs.iter().map(|pair| self.outcome(&Test::Equal(*pair)));
         !pairs.is_empty() && outcomes.all(|outcome| matches!(outcome, Some(Ok(()))))
-    }
-
-    /// Returns the divisor because of which a formula is undefined, an innermost one.
-    fn zero_divisor(&self, place: usize) -> Option<Tree> {
-        if self.at(place).is_some() {
-            return None;
-        }
-        let op = &self.program.ops()[place];
-        op.operands().find_map(|operand| self.zero_divisor(*operand)).or_else(|| match op {
-            Op::Div(_, divisor) => Some(self.program.formula(*divisor)),
-            _ => None,
-        })
     }
 }
 

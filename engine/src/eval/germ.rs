@@ -1,6 +1,6 @@
 //! Formulas of one quantity where it is large.
 
-use super::domain::{Balls, Domain, Quantity, Value};
+use super::domain::{Balls, Domain, Value};
 use crate::number::tree::Op;
 use crate::number::{Ball, Exact};
 use num_traits::{One, Zero};
@@ -11,9 +11,9 @@ use std::iter;
 type Polynomial = Vec<Exact>;
 
 fn sum(a: &[Exact], b: &[Exact]) -> Polynomial {
-    let (short, long) = if a.len() < b.len() { (a, b) } else { (b, a) };
-    let mut sum = long.to_vec();
-    for (coefficient, other) in sum.iter_mut().zip(short) {
+    let mut sum = a.to_vec();
+    sum.resize(a.len().max(b.len()), Exact::zero());
+    for (coefficient, other) in sum.iter_mut().zip(b) {
         *coefficient = &*coefficient + other;
     }
     while sum.pop_if(|last| last.is_zero()).is_some() {}
@@ -102,8 +102,6 @@ pub(super) enum Tendency {
 }
 
 use Tendency::{Infinite, Number, Rational, Unknown};
-
-impl Quantity for Tendency {}
 
 impl Tendency {
     /// Returns the rational function, if the formula is one.
@@ -205,5 +203,12 @@ mod tests {
         let inverse = one.minus(&x).inverse().unwrap();
         assert_eq!((inverse.sign(), inverse.limit()), (Ordering::Less, Some(Exact::zero())));
         assert!(same.minus(&x).inverse().is_none());
+    }
+
+    #[test]
+    fn a_difference_of_infinite_quantities_is_unknown() {
+        let infinite = || Infinite(Ordering::Greater);
+        assert!(matches!(Tendency::of(Op::Add(infinite(), infinite())), Infinite(Ordering::Greater)));
+        assert!(matches!(Tendency::of(Op::Sub(infinite(), infinite())), Unknown));
     }
 }

@@ -190,8 +190,7 @@ fn find_repeat<T: Scalar + Real + ToExact>(case: &Case<T>, precision: &Exact) ->
 
 /// Returns `true` if an error exceeds its bound, or has a larger ratio to it than another one that does not.
 fn is_worse(error: &Exact, bound: &Exact, (other, other_bound): &(Exact, &Exact)) -> bool {
-    let can_have_larger_ratio = other <= *other_bound && (error > other || bound < *other_bound);
-    error > bound || can_have_larger_ratio && other * bound < error * *other_bound
+    error > bound || other * bound < error * *other_bound
 }
 
 #[cfg(test)]
