@@ -273,8 +273,8 @@ const OWN: [&str; 11] = ["a", "b", "u", "k", "ρ", "λ₀", "ρᵏ", "u_{k+1}", 
 /// An operation with its relative frequency, which takes its operands from the last results.
 type Operation = (usize, fn(&mut dyn FnMut() -> Tree) -> Tree);
 
-/// Sums of formulas in reverse Polish notation, of fewer than `end` leaves and operations. Nested unions of strategies
-/// would take most of a test's time.
+/// Sums of formulas in reverse Polish notation, of fewer than `end` leaves and operations; the first leaf stands for an
+/// operand that is missing. Nested unions of strategies would take most of a test's time.
 fn composed(leaves: Vec<Tree>, operations: &[Operation], end: usize) -> BoxedStrategy<Tree> {
     let operations = operations.iter().flat_map(|(often, operation)| iter::repeat_n(*operation, *often));
     let operations: Vec<_> = operations.collect();
@@ -299,6 +299,7 @@ fn squared(x: &Tree) -> Tree {
 }
 
 fn trees() -> BoxedStrategy<Tree> {
+    // Three of four leaves are symbols.
     let symbols = OWN.into_iter().chain(OWN).map(|name| Tree::symbol(name));
     let leaves = symbols.chain((-3..4).map(Tree::int)).collect();
     composed(

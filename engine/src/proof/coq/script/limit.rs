@@ -183,7 +183,8 @@ impl Limit<'_> {
         Ok(())
     }
 
-    /// Proves what does not depend on the variable.
+    /// Proves what does not depend on the variable, of which nothing is known here: a certificate that needs its
+    /// sign shows none.
     fn at_zero(&self, script: &mut Script, end: impl Fn(&mut Writer) -> Result<String>) -> Result<()> {
         script.names(&self.target, |y| !self.is_variable(y))?;
         let mut writer = Writer::new(&self.target, self.state, self.leaf, |y| !self.is_variable(y))?;
