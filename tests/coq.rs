@@ -136,12 +136,13 @@ fn with(definitions: &[Definition], other: Definition) -> Vec<Definition> {
 
 /// Returns a formula with Coq's letters.
 fn in_letters(tree: &Tree) -> Tree {
-    const LETTERS: [(&str, &str); 12] = [
+    const LETTERS: [(&str, &str); 13] = [
         ("H", "h"),
         ("ε", "eps"),
         ("ε₄", "eps4"),
         ("λ", "lambda"),
         ("α", "alpha"),
+        ("tol", "tol_"),
         ("δu", "du"),
         ("x₁", "x1"),
         ("x₂", "x2"),

@@ -627,6 +627,10 @@ impl<'a> Text<'a> {
             let (of, to) = tends.split_once(" → ").expect(self.0);
             self.part(of).are(member);
             self.part(to).is(limit);
+            let (place, conditions) = place.split_once(", as ").expect(self.0);
+            let (size, at_zero) = conditions.split_once(" < 1 and it is ").expect(self.0);
+            self.part(size).is(&ratio.abs());
+            self.part(at_zero.strip_suffix(" at q = 0").expect(self.0)).is(limit);
             let (place, infinity) = place.rsplit_once(" and ").expect(self.0);
             assert!(infinity.ends_with(" → ∞"));
             self.is_power(place, infinity.trim_end_matches(" → ∞"), statement)

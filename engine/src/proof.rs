@@ -25,7 +25,9 @@
 //!
 //! Most of this can be checked independently: [`coq`] writes the same claims for the proof assistant Coq,
 //! whose kernel checks them anew, and tests ensure that nothing is proved that numbers
-//! [`refute`](mod@refute). Rounding errors of formulas are proved as well, for every precision. Claims about
+//! [`refute`](mod@refute). For a claim that the export [omits](coq::Development::omitted), the checker stands alone:
+//! limits with hypotheses on their variable other than its sign, limits in cases or of absolute values, and limits of
+//! exponentials other than one decaying at a constant rate. Rounding errors of formulas are proved as well, for every precision. Claims about
 //! the solver in floats, about its guarantees and iteration counts, are tested by experiments, not proved.
 
 mod bounds;

@@ -20,45 +20,28 @@ pub struct Instance {
     pub part: &'static str,
     /// The proposition.
     pub proposition: Proposition,
-    /// Pairs of quantities that are equal where the proposition is not required; none if it always is.
-    unless: Vec<[Tree; 2]>,
 }
 
 impl Instance {
-    /// Returns a proposition that is required everywhere.
+    /// Returns a proposition about a part of a statement.
     pub fn new(part: &'static str, proposition: Proposition) -> Self {
-        Instance { part, proposition, unless: Vec::new() }
+        Instance { part, proposition }
     }
 }
 
 /// Returns the propositions that a statement makes about its [independent symbols](independent_symbols).
 ///
 /// Computed quantities are replaced by their formulas. Of a recursion, the first `members` are unfolded: they
-/// have their closed form, or satisfy their bounds. A formula of ρᵏ has its limit if it has it at q = 0, and
-/// |ρ| < 1 or the formula is constant.
+/// have their closed form, or satisfy their bounds.
 pub fn instances(statement: &Statement, members: usize) -> Vec<Instance> {
-    let mut constant = Vec::new();
-    match statement.conclusion() {
-        Some(sequence @ Sequence { limit: None, .. }) => return unfolded(statement, sequence, members),
-        Some(sequence) => constant = first_and_limit(sequence),
-        None => {}
+    if let Some(sequence @ Sequence { limit: None, .. }) = statement.conclusion() {
+        return unfolded(statement, sequence, members);
     }
     let computed = with_computed(statement, Vec::new());
-    let mut all = Vec::new();
-    for goal in statement.goals().iter().filter(|goal| goal.role == Role::Claim) {
-        let proposition = goal.proposition.map(&|tree| tree.substitute(&computed));
-        let is_margin = matches!(proposition, Proposition::Sign(..));
-        let unless = if is_margin { constant.clone() } else { Vec::new() };
-        all.push(Instance { part: goal.part, proposition, unless });
-    }
-    all
-}
-
-/// Returns the first value of a formula of ρᵏ with its limit, which are equal if the formula is constant.
-fn first_and_limit(sequence: &Sequence) -> Vec<[Tree; 2]> {
-    let limit = sequence.limit.iter().cycle();
-    let first = sequence.member.iter().map(|member| member.substitute(&[(POWER, Tree::one())]));
-    first.zip(limit).map(|(first, limit)| [first, limit.clone()]).collect()
+    let claims = statement.goals().iter().filter(|goal| goal.role == Role::Claim);
+    claims
+        .map(|goal| Instance::new(goal.part, goal.proposition.map(&|tree| tree.substitute(&computed))))
+        .collect()
 }
 
 /// Returns the hypotheses of a statement as propositions about its independent symbols.
@@ -134,8 +117,8 @@ pub fn independent_symbols(statement: &Statement) -> Vec<&'static str> {
 pub enum Test {
     /// Two quantities are equal.
     Equal([usize; 2]),
-    /// A quantity has a sign, unless there are pairs of others, and these are equal.
-    Sign(Relation, usize, Vec<[usize; 2]>),
+    /// A quantity has a sign.
+    Sign(Relation, usize),
     /// A quantity does not exceed a bound in absolute value.
     Within {
         /// The quantity.
@@ -161,10 +144,7 @@ impl Test {
                     None => Test::Defined([program.add(of), program.add(is)]),
                 }
             }
-            Proposition::Sign(relation, of) => {
-                let unless = instance.unless.iter().map(|[a, b]| [program.add(a), program.add(b)]).collect();
-                Test::Sign(*relation, program.add(of), unless)
-            }
+            Proposition::Sign(relation, of) => Test::Sign(*relation, program.add(of)),
             Proposition::Within(of, bound) => Test::Within { of: program.add(of), bound: program.add(bound) },
             Proposition::Limit(of, by, to) => {
                 let mut distance = Program::default();
@@ -312,8 +292,8 @@ impl<D: Domain<Value: Quantity>, S: Fn(&'static str) -> D::Value> Evaluation<'_,
             Test::Within { of, bound } => {
                 self.compared(&[*of, *bound], Quantity::is_within, Failure::BoundExceeded)
             }
-            Test::Sign(relation, of, constant) => match self.at(*of) {
-                Some(value) if value.admits(*relation)? || self.are_equal(constant) => Some(Ok(())),
+            Test::Sign(relation, of) => match self.at(*of) {
+                Some(value) if value.admits(*relation)? => Some(Ok(())),
                 Some(value) => Some(Err(Failure::Sign(*relation, value.clone()))),
                 None => self.undefined(&[*of]),
             },
@@ -352,12 +332,6 @@ impl<D: Domain<Value: Quantity>, S: Fn(&'static str) -> D::Value> Evaluation<'_,
     fn undefined(&self, places: &[usize]) -> Outcome<D::Value> {
         let divisor = places.iter().find_map(|place| self.zero_divisor(*place))?;
         Some(Err(Failure::Undefined(divisor)))
-    }
-
-    /// Returns `true` if there are quantities, and those of each pair are equal.
-    fn are_equal(&self, pairs: &[[usize; 2]]) -> bool {
-        let mut outcomes = pairs.iter().map(|pair| self.outcome(&Test::Equal(*pair)));
-        !pairs.is_empty() && outcomes.all(|outcome| matches!(outcome, Some(Ok(()))))
     }
 }
 

@@ -162,7 +162,10 @@ impl PerturbedRecursion {
     }
 }
 
-/// States that a formula of q = ratioᵏ tends to a limit as k tends to infinity.
+/// States that |ratio| < 1, and that a formula of q is defined at q = 0 and has the value `to` there, so that for
+/// q = ratioᵏ it tends to `to` as k tends to infinity.
+///
+/// The statement is false for a formula that tends to `to` otherwise, such as q/q to 1, or 1/q to 0 for the ratio 2.
 pub fn geometric_limit(
     name: &'static str,
     ratio: impl Into<Tree>,

@@ -31,8 +31,8 @@
 //! # Limits
 //!
 //! A hypothesis about the variable of a limit must hold for all sufficiently large values, by its degrees and
-//! leading coefficients. A limit follows from the degrees of numerator and denominator; e^… with an exponent
-//! that tends to −∞ vanishes against any power.
+//! leading coefficients, before it becomes a fact. A limit follows from the degrees of numerator and denominator;
+//! e^… with an exponent that tends to −∞ vanishes against any power.
 
 mod form;
 mod limit;
@@ -177,7 +177,7 @@ pub enum Node {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Leaf {
     /// The numbers of the hypotheses to use. An interval gives its symbol a value; any other one becomes a
-    /// fact. In a limit, those that do not mention its variable come first.
+    /// fact. In a limit, all that mention its variable are listed.
     pub hypotheses: Vec<usize>,
     /// The functions that rise or fall from 0 on.
     pub rises: Vec<Rise>,
@@ -420,9 +420,6 @@ impl<S: Source> Reader<'_, S> {
 
     /// Checks the goal after the hypotheses.
     pub(in crate::proof) fn conclude(&mut self, leaf: &Leaf, cases: &[(Polynomial, Sign)]) -> Checked<()> {
-        if self.state.problem.variable().is_some() {
-            self.early.get_or_insert_with(|| self.state.clone());
-        }
         leaf.rises.iter().try_for_each(|rise| self.rise(rise))?;
         leaf.orders.iter().try_for_each(|errors| self.monotone(*errors))?;
         match self.state.problem.proposition {

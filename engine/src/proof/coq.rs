@@ -199,9 +199,10 @@ impl<'a> Development<'a> {
             let (name, body) = (print::function(formula), printer.body(formula));
             let binders = self.registry.common_symbols(formula).chain(formula.depends_on()).map(ascii);
             let binders = binders.collect::<Vec<_>>().join(" ");
+            let binders = if binders.is_empty() { binders } else { format!("({binders} : R) ") };
             let _ = write!(
                 text,
-                "\nDefinition {name} ({binders} : R) : R :=\n  {body}.\n\
+                "\nDefinition {name} {binders}: R :=\n  {body}.\n\
                  #[export] Hint Unfold {name} : functions.\n"
             );
         }

@@ -52,7 +52,11 @@ impl<'a> ProofPrinter<'a> {
         let (index, power) = (self.index(statement), self.power(statement, ratio));
         let definitions = [&[power], &computed[..]].concat().join(" and ");
         if let Some(limit) = limit {
-            return format!("{} → {} for {definitions} and {index} → ∞", self.list(member), self.text(limit));
+            let (member, limit) = (self.list(member), self.text(limit));
+            let size = self.text(&ratio.abs());
+            return format!(
+                "{member} → {limit} for {definitions} and {index} → ∞, as {size} < 1 and it is {limit} at q = 0"
+            );
         }
         let (from, to, members) = (self.list(start), self.list(step), MEMBERS[..step.len()].join(", "));
         let bounds = within

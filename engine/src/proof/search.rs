@@ -289,7 +289,7 @@ impl<'a> Attempt<'a> {
             if hypothesis.interval().is_some_and(|(x, ..)| !read.insert(x)) {
                 continue;
             }
-            reader.assume(*i)?;
+            reader.assume(*i).map_err(|reason| self.not_assumed(*i, reason, &mut reader.source.failure))?;
             reader.source.leaf.hypotheses.push(*i);
             if hypothesis.interval().is_none() {
                 let of = reader.value(self.problem.values[*i])?;
@@ -305,6 +305,15 @@ impl<'a> Attempt<'a> {
         Ok(())
     }
 
+    /// Returns the reason for which a hypothesis is not used. One on the variable of a limit is named, unless cases
+    /// or a rise may still help.
+    fn not_assumed(&self, i: usize, reason: Refusal, found: &mut Option<Failure>) -> Failure {
+        if self.problem.mentions_variable(i) && matches!(found, None | Some(Failure::Error(_))) {
+            *found = Some(ProofError::EndingHypothesis(self.problem.hypotheses[i].value.clone()).into());
+        }
+        reason.into()
+    }
+
     /// Returns the numbers of the hypotheses: intervals before what mentions their symbols, and those on the
     /// variable of a limit last.
     fn order(&self) -> Vec<usize> {
@@ -315,14 +324,9 @@ impl<'a> Attempt<'a> {
             let (hypothesis, symbols) = (hypotheses[*i], hypotheses[*i].value.symbols());
             let own = hypothesis.interval().map(|(x, ..)| x);
             let waits = bounded.iter().any(|x| symbols.contains(x) && own != Some(*x));
-            (self.mentions_variable(hypothesis), waits, waits && own.is_none())
+            (self.problem.mentions_variable(*i), waits, waits && own.is_none())
         });
         order
-    }
-
-    /// Returns `true` if a hypothesis contains the variable of the limit to be proved.
-    fn mentions_variable(&self, hypothesis: &Hypothesis) -> bool {
-        self.problem.variable().is_some_and(|by| hypothesis.value.symbols().contains(by))
     }
 
     /// Returns the pairs of rounded formulas whose order the goal rests on.

@@ -49,7 +49,7 @@ pub fn trace<'p>(
 
 /// Returns a reader of the formulas that were read before, without a proof.
 pub fn reread(state: State<'_>) -> Reader<'_, List<'static>> {
-    Reader { state, early: None, source: List::default() }
+    Reader { state, source: List::default() }
 }
 
 impl Source for Trace<'_> {

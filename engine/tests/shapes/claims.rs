@@ -2,7 +2,8 @@
 //! brackets or rounded, in exact arithmetic and with rounding.
 
 use provable::formula::claim::{
-    PRECISION, SCALES, derivative, equal, induction, limit, non_negative, positive, within,
+    PRECISION, SCALES, derivative, equal, geometric_limit, induction, limit, non_negative,
+    perturbed_recursion, positive, within,
 };
 use provable::formula::{Hypothesis, Rate, Relation, Statement};
 use provable::number::{Exponential, Field, PositivePart, Tree};
@@ -171,4 +172,39 @@ pub fn claims() -> Vec<Statement> {
         within("both-signs", once(&(&a / (&f - &g) + &a / (&g - &f) + &a)), &a / &n)
             .assuming([&stiff_a, &shorter]),
     ]
+}
+
+/// Returns a claim about the first of these symbols for each rule, with a hypothesis on the others, in a section named
+/// after the first one.
+pub fn about(names: &[&'static str]) -> Vec<Statement> {
+    let all: Vec<_> = names.iter().map(|name| Tree::symbol(name)).collect();
+    let (x, c, one) = (&all[0], Tree::symbol("c"), Tree::int(1));
+    let others =
+        Hypothesis::new(Relation::Positive, all[1..].iter().fold(c.clone(), |sum, other| sum + other));
+    let [above, rate] = [x, &c].map(|of| Hypothesis::new(Relation::Positive, of.clone()));
+    let unit = Hypothesis::between(x, -1, 1);
+    let half = || Tree::symbol("q") / Tree::int(2);
+    let claims = [
+        positive("rise", x.exp() - &one - x).assuming([&above]),
+        non_negative("size", x.abs() - x),
+        non_negative("interval", &one - x).assuming([&unit]),
+        equal("exponential", x.exp() * (-x).exp(), 1),
+        derivative("slope", x * x.exp(), x, x.exp() + x * x.exp()),
+        limit("limit", (-&c * x).exp(), x, 0, Rate::Equal((-&c * x).exp())).assuming([&rate, &above]),
+        geometric_limit("powers", &c / (&c + &one), x * Tree::symbol("q"), 0).assuming([&rate]),
+        induction(
+            "induction",
+            one.clone() / Tree::int(2),
+            [x.clone()],
+            |[x]| [x / Tree::int(2)],
+            [x * Tree::symbol("q")],
+        ),
+        within("rounded", x.round() - x, x.abs() / Tree::symbol(PRECISION)),
+        non_negative("order", x.round() - (x - &c).round()).assuming([&rate]),
+        perturbed_recursion("drift", one / Tree::int(2))
+            .start(x)
+            .step(|m| m / Tree::int(2))
+            .near(x * half() * Tree::int(2), 0),
+    ];
+    claims.map(|claim| claim.assuming([&others]).inheriting(names[0], &[])).into()
 }

@@ -10,7 +10,7 @@ mod springs;
 
 use coqc::{accepts, named, of_claims};
 use provable::formula::claim::PRECISION;
-use provable::formula::{Hypothesis, Registry, Relation};
+use provable::formula::{Formula, Hypothesis, Registry, Relation};
 use provable::number::{Field, Tree, symbols};
 use provable::proof::coq::{Development, LocatedClaim};
 use provable::proof::{RoundingBound, prove, rounding_bound};
@@ -59,6 +59,25 @@ fn coq_accepts_divisors_of_any_shape() {
     let development = Development::new("Shapes", &registry, placed);
     assert!(development.omitted().is_empty(), "{:?}", development.omitted());
     accepts("shapes", "Shapes", &development);
+}
+
+/// Each rule of scripts, about symbols that are named like what scripts and the library's files call something.
+#[test]
+#[ignore = "requires Coq"]
+fn coq_accepts_symbols_of_any_name() {
+    let names = [
+        "a", "b", "d", "e", "f", "g", "i", "k", "n", "o", "p", "r", "s", "t", "u", "v", "w", "x", "y", "z",
+        "C", "D", "E", "F", "H1", "I", "K", "M", "N", "O", "P", "Q", "R", "S", "X", "Known", "Rmin", "bpow",
+        "choice", "exp", "fl", "identity", "is_lim", "prec", "s1", "tt",
+    ];
+    let claims: Vec<_> = names.chunks(6).flat_map(claims::about).collect();
+    let formulas =
+        ["two", "Known", "same::size", "exp"].map(|name| Formula::new(name, "", &[], Tree::int(2)));
+    let registry = Registry::new(&[], formulas.into());
+    let placed = claims.iter().map(|claim| LocatedClaim { claim, section: claim.equation(), functions: &[] });
+    let development = Development::new("Names", &registry, placed);
+    assert!(development.omitted().is_empty(), "{:?}", development.omitted());
+    accepts("names", "Names", &development);
 }
 
 #[test]

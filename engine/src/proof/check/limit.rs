@@ -1,22 +1,33 @@
 //! Limits of quotients, by the degrees in the variable.
+//!
+//! A limit is proved for all values of the other symbols for which those hypotheses hold that do not mention its
+//! variable x. The others must hold for all sufficiently large x, which is shown from what is known before them,
+//! so they restrict nothing, and two of them cannot contradict each other.
+//!
+//! Invariant: for these values, *every fact, and every value of a formula, is valid for all sufficiently large x*.
+//! A fact is added by
+//!
+//! - a case: its quantity must not depend on x;
+//! - a hypothesis: if it mentions x, [`Reader::holds_later`] comes before it;
+//! - a sign, a divisor or an absolute value: it follows, at each x, from facts that are valid there;
+//! - a rise or an order: likewise, and from hypotheses, all of which have been examined when the limit is accepted.
+//!
+//! A translated formula has the value that follows from the facts of that time, among them the branch of a minimum. An
+//! interval lets all formulas be translated again, from more facts. A sign that is shown of a quantity without x is
+//! valid at some x, and therefore everywhere.
 
 use super::polynomial::Polynomial;
 use super::quotient::Quotient;
 use super::sign::Sign;
-use super::state::{Reader, State};
+use super::state::Reader;
 use super::table::Atom;
 use super::{Checked, Refusal, Source};
-use crate::formula::{Hypothesis, Relation};
+use crate::formula::Relation;
 use crate::number::Tree;
 use std::cmp::Ordering;
-use std::mem;
 
-impl<'p, S: Source> Reader<'p, S> {
-    /// Checks that `of` tends to `to` as a symbol tends to infinity, for all values of the other symbols for
-    /// which those hypotheses hold that do not mention it.
-    ///
-    /// What these hypotheses imply is known early. From it alone follows that the others hold for all
-    /// sufficiently large values of the symbol; so for these, all facts are valid.
+impl<S: Source> Reader<'_, S> {
+    /// Checks that `of` tends to `to` as a symbol tends to infinity.
     pub fn limit(
         &mut self,
         of: &Tree,
@@ -25,13 +36,12 @@ impl<'p, S: Source> Reader<'p, S> {
         cases: &[(Polynomial, Sign)],
     ) -> Checked<()> {
         let (of, to) = (self.translate(of)?, self.translate(to)?);
-        let (problem, early) = (self.state.problem, self.early.clone().ok_or(Refusal::Limit)?);
+        let problem = self.state.problem;
         let x = problem.table.variable(Atom::Own(by))?;
-        if cases.iter().any(|(case, _)| !case.has_only(|y| !problem.depends(y, by))) {
+        let mut later = (0..problem.hypotheses.len()).filter(|i| problem.mentions_variable(*i));
+        let is_examined = later.all(|i| self.state.assumed.iter().any(|(known, _)| *known == Some(i)));
+        if !is_examined || cases.iter().any(|(case, _)| !case.has_only(|y| !problem.depends(y, by))) {
             return Err(Refusal::Limit);
-        }
-        for hypothesis in problem.hypotheses.iter().filter(|h| h.value.symbols().contains(by)) {
-            self.holds_later(hypothesis, x, &early)?;
         }
         let found = self.limit_of(&of, x)?;
         let difference = self.state.facts.sum(&found, -1, &to)?;
@@ -60,24 +70,21 @@ impl<'p, S: Source> Reader<'p, S> {
         of.iter().try_fold(Sign::Positive, |sign, factor| Ok(sign.times(self.sign_of_part(factor)?.0)))
     }
 
-    /// Checks that a hypothesis holds for all sufficiently large values of the variable.
-    fn holds_later(&mut self, hypothesis: &Hypothesis, x: usize, early: &State<'p>) -> Checked<()> {
-        if hypothesis.interval().is_some() || hypothesis.relation == Relation::Zero {
+    /// Checks that a hypothesis that mentions the variable of the limit holds for all sufficiently large values.
+    pub fn holds_later(&mut self, i: usize, by: &'static str) -> Checked<()> {
+        let problem = self.state.problem;
+        if problem.hypotheses[i].interval().is_some() || problem.hypotheses[i].relation == Relation::Zero {
             return Err(Refusal::Limit);
         }
-        let value = self.translate(&hypothesis.value)?;
-        let (_, coefficients) = self.leading(&value, x)?;
-        // The signs are found in the earlier state, and are not added to the later one.
-        let later = mem::replace(&mut self.state, early.clone());
-        let sign = self.sign_of_product(&coefficients);
-        self.state = later;
-        if sign? == Sign::Positive { Ok(()) } else { Err(Refusal::Limit) }
+        let value = self.value(problem.values[i])?;
+        let (_, coefficients) = self.leading(&value, problem.table.variable(Atom::Own(by))?)?;
+        if self.sign_of_product(&coefficients)? == Sign::Positive { Ok(()) } else { Err(Refusal::Limit) }
     }
 
     /// Returns the limit of a quotient: 0 if the denominator has the higher degree, and the quotient of the
     /// leading coefficients if the degrees are equal.
     fn limit_of(&mut self, of: &Quotient, x: usize) -> Checked<Quotient> {
-        let num = self.without_vanishing_exponentials(&of.num, x)?;
+        let num = self.without_vanishing_terms(&of.num, x)?;
         let (excess, mut coefficients) = self.leading(&Quotient { num, den: of.den.clone() }, x)?;
         let den: Vec<_> =
             coefficients.split_off(1).iter().map(|of| self.strict(of)).collect::<Checked<_>>()?;
@@ -88,19 +95,23 @@ impl<'p, S: Source> Reader<'p, S> {
         }
     }
 
-    /// Returns a polynomial without its terms in which an exponential tends to 0.
+    /// Returns a polynomial without its terms that contain an exponential, all of which vanish.
     ///
     /// An exponent n/d of polynomials tends to −∞ at least as fast as −a x for some a > 0 if the degree of n
     /// in x is the higher one and the leading coefficients have opposite signs; and e^{−a x} times any power
-    /// of x vanishes.
-    fn without_vanishing_exponentials(&mut self, of: &Polynomial, x: usize) -> Checked<Polynomial> {
+    /// of x vanishes. So a term vanishes with one of its exponentials if each of its other factors is bounded by
+    /// a power of x. Those that a polynomial can have are
+    ///
+    /// - x itself, a power;
+    /// - any quantity that does not depend on x, a constant;
+    /// - an exponential that depends on x: it is refused unless it vanishes;
+    /// - an absolute value that depends on x: it is refused, because it may grow faster than any power;
+    /// - its factor, or the error or parameter of a quantity that depends on x: they are between −1 and 1, but
+    ///   are refused like the absolute value.
+    fn without_vanishing_terms(&mut self, of: &Polynomial, x: usize) -> Checked<Polynomial> {
         let (mut rest, problem) = (of.clone(), self.state.problem);
-        for (y, atom) in problem.table.atoms().iter().enumerate() {
-            let is_exponential = matches!(atom, Atom::Exponential(_)) && of.degree(y) > 0;
-            if !is_exponential || !problem.depends_on(y, x) {
-                continue;
-            }
-            // Each one vanishes, so a product of several does.
+        let varies = |y: &usize| *y != x && of.degree(*y) > 0 && problem.depends_on(*y, x);
+        for y in (0..problem.table.atoms().len()).filter(varies) {
             let exponent = self.state.exponent(y).ok_or(Refusal::Limit)?.clone();
             let (excess, coefficients) = self.leading(&exponent, x)?;
             if excess <= 0 || self.sign_of_product(&coefficients)? != Sign::Negative {

@@ -62,8 +62,6 @@ pub struct Size {
 pub struct Reader<'p, S> {
     /// The knowledge at the leaf.
     pub state: State<'p>,
-    /// The knowledge before the first hypothesis on the variable of a limit.
-    pub early: Option<State<'p>>,
     /// The proof, or a search for one.
     pub source: S,
 }
@@ -118,7 +116,7 @@ impl<'p> State<'p> {
 impl<'p, S: Source> Reader<'p, S> {
     /// Returns a reader that knows no hypothesis.
     pub fn new(problem: &'p Problem, source: S) -> Self {
-        Reader { state: State::new(problem), early: None, source }
+        Reader { state: State::new(problem), source }
     }
 
     /// Returns the sign of a polynomial, and the number of the fact.
@@ -320,8 +318,8 @@ impl<'p, S: Source> Reader<'p, S> {
     pub fn assume(&mut self, i: usize) -> Checked<()> {
         let problem = self.state.problem;
         let hypothesis = *problem.hypotheses.get(i).ok_or(Refusal::Unknown)?;
-        if problem.variable().is_some_and(|by| hypothesis.value.symbols().contains(by)) {
-            self.early.get_or_insert_with(|| self.state.clone());
+        if let Some(by) = problem.variable().filter(|_| problem.mentions_variable(i)) {
+            self.holds_later(i, by)?;
         }
         if let Some((x, lower, upper)) = hypothesis.interval() {
             let (lower, upper) = (self.translate(lower)?, self.translate(upper)?);

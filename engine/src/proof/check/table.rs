@@ -208,6 +208,11 @@ impl<'a> Problem<'a> {
         }
     }
 
+    /// Returns `true` if the hypothesis with a number mentions the variable of the limit.
+    pub fn mentions_variable(&self, i: usize) -> bool {
+        self.variable().is_some_and(|by| self.hypotheses[i].value.symbols().contains(by))
+    }
+
     /// Returns `true` if a variable may vary with a symbol.
     pub fn depends(&self, x: usize, symbol: &str) -> bool {
         match self.table.atoms.get(x) {

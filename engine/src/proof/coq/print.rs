@@ -1,30 +1,54 @@
 //! Names of formulas and functions in Coq.
 
 use super::expr::{Expr, Operator};
+use super::{PROGRAM, is_part_of_name};
 use crate::formula::{Formula, Registry};
 use crate::number::Tree;
 use crate::number::tree::Op;
 use num_traits::Zero;
+use std::collections::HashSet;
+use std::sync::LazyLock;
 
-/// Words with a meaning in Coq or in our proofs.
-const TAKEN: [&str; 27] = [
+/// Keywords of Coq, and words of scripts that do not occur in the files that all theorems require.
+const TAKEN: [&str; 26] = [
     "R", "Prop", "Set", "Type", "as", "at", "cofix", "else", "end", "exists", "exp", "fix", "for", "forall",
-    "fun", "if", "in", "let", "match", "mod", "nat", "pow", "return", "then", "using", "where", "with",
+    "fun", "if", "in", "let", "match", "mod", "nat", "return", "then", "using", "where", "with",
 ];
 
-/// Returns the word, or another one if it is reserved. Proofs use letters with a number.
+/// All words of the files that all theorems require.
+static PROGRAM_WORDS: LazyLock<HashSet<&str>> = LazyLock::new(|| {
+    let words = PROGRAM.iter().flat_map(|(_, text)| text.split(|c| !is_part_of_name(c)));
+    words.filter(|word| !word.is_empty()).collect()
+});
+
+/// Returns the name of a function or theorem: the word, or another one if it has a meaning. Proofs use letters with a
+/// number.
 pub(super) fn free(word: String) -> String {
     let number = word.strip_prefix(|c: char| c == 's' || c.is_ascii_uppercase()).unwrap_or_default();
     let is_numbered = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
-    if is_numbered || TAKEN.contains(&word.as_str()) { format!("{word}_") } else { word }
+    let is_taken = TAKEN.contains(&word.as_str()) || PROGRAM_WORDS.contains(word.as_str());
+    if is_numbered || is_taken { format!("{word}_") } else { word }
 }
 
-/// Returns a symbol in ASCII letters: ε₄ is eps4, δu is du.
+/// Returns a symbol in ASCII letters: ε₄ is eps4, δu is du, R is R_.
+///
+/// Words of Coq and of proofs are capitals, or have several letters, or are the index n or an s with a number. A symbol
+/// like these ends with an underscore, as no such word does.
 pub(super) fn ascii(symbol: &str) -> String {
-    if symbol.is_ascii() && symbol != "H" {
-        return free(symbol.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
+    let word: String = symbol.chars().map(ascii_letters).collect();
+    let letters: Vec<char> = symbol.chars().filter(char::is_ascii_alphabetic).collect();
+    let is_distinct = match letters[..] {
+        [] | ['H'] => true,
+        ['n'] => word != "n",
+        ['s'] => word == "s",
+        [letter] => letter.is_ascii_lowercase(),
+        _ => false,
+    };
+    match word.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        true if is_distinct => word,
+        true => word + "_",
+        false => format!("u{word}_"),
     }
-    symbol.chars().map(ascii_letters).collect()
 }
 
 fn ascii_letters(c: char) -> String {
@@ -44,7 +68,7 @@ fn ascii_letters(c: char) -> String {
         // Names that begin with H are hypotheses.
         'H' => "h".to_string(),
         '₀'..='₉' => (u32::from(c) - u32::from('₀')).to_string(),
-        c if c.is_ascii_alphanumeric() => c.to_string(),
+        c if is_part_of_name(c) => c.to_string(),
         c => format!("u{:x}", u32::from(c)),
     }
 }
@@ -161,15 +185,26 @@ mod tests {
     }
 
     #[test]
-    fn reserved_names_are_replaced() {
-        let names = ["R", "N", "in", "s1", "N1", "s₁", "H", "λ₀", "σ", "∂u", "2ᵖ", "ρᵏ", "e_1", "e'"];
+    fn names_of_symbols_are_words_of_neither_coq_nor_proofs() {
+        let names = [
+            "c", "n", "R", "N", "in", "s", "s1", "N1", "tt", "H", "λ₀", "σ", "∂u", "2ᵖ", "ρᵏ", "e_1", "e'",
+            "3x", "",
+        ];
         let letters = [
-            "R_", "N", "in_", "s1_", "N1_", "s1", "h", "lambda0", "u3c3", "u2202u", "two_p", "rho_k", "e_1",
-            "e_",
+            "c", "n_", "R_", "N_", "in_", "s", "s1_", "N1_", "tt_", "h", "lambda0", "u3c3", "u2202u",
+            "two_p", "rho_k", "e_1", "eu27", "u3x_", "u_",
         ];
         assert_eq!(names.map(ascii), letters);
-        let fix = Formula::new("fix", "", &["x"], Tree::symbol("x"));
-        assert_eq!(function(&fix), "fix_");
+        let words = PROGRAM_WORDS.iter().chain(&TAKEN).filter(|word| word.len() > 1);
+        let same: Vec<_> = words.filter(|word| ascii(word) == **word || word.ends_with('_')).collect();
+        assert!(same.is_empty(), "{same:?}");
+    }
+
+    #[test]
+    fn names_of_functions_have_no_other_meaning() {
+        let of = |path| function(&Formula::new(path, "", &["x"], Tree::symbol("x")));
+        let names = ["lens::focus", "fix", "same::size", "Known", "s1"];
+        assert_eq!(names.map(of), ["lens_focus", "fix_", "same_size_", "Known_", "s1_"]);
     }
 
     #[test]

@@ -116,12 +116,16 @@ fn inductions_are_evaluated_at_the_powers_of_their_ratio() {
     assert!(matches!(squares(2), Verdict::Fails("step", Failure::Unequal(..))));
 }
 
-/// Powers of 2 do not tend to 0, but a constant sequence still has a limit.
+/// The claim includes that the ratio is less than 1 in absolute value and that the formula has its limit at q = 0.
 #[test]
-fn constant_sequences_have_limits() {
-    let tends = |of: Tree, to: Tree| check(&geometric_limit("tends", 2, of, to), &point(&[("c", 3)]));
-    assert_eq!(tends(x("c"), x("c")), Verdict::Holds);
-    assert!(matches!(tends(x("c") * x("q"), Tree::from(0)), Verdict::Fails("|ρ| < 1", Failure::Sign(..))));
+fn geometric_limits_include_their_conditions() {
+    let q = || x("q");
+    let tends = |ratio: i32, of: Tree| check(&geometric_limit("tends", ratio, of, 1), &point(&[("q", 3)]));
+    assert_eq!(tends(0, q() + Tree::one()), Verdict::Holds);
+    for ratio in [1, -1, 2] {
+        assert!(matches!(tends(ratio, Tree::one()), Verdict::Fails("|ρ| < 1", Failure::Sign(..))));
+    }
+    assert_eq!(tends(0, q() / q()), Verdict::Fails("at q = 0", Failure::Undefined(Tree::from(0))));
 }
 
 /// The derivative of ⟨u⟩ is not examined; that of ⟨u⟩/0 is undefined.

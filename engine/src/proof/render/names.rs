@@ -116,6 +116,7 @@ impl ProofError {
             | ProofError::Unequal(value)
             | ProofError::UnknownLimit(value) => Some(value),
             ProofError::NotDifferentiable
+            | ProofError::EndingHypothesis(_)
             | ProofError::Premise(_)
             | ProofError::TooLarge(_)
             | ProofError::NotExpressed(_) => None,

@@ -102,7 +102,10 @@ fn the_index_of_a_sequence_is_a_letter_that_does_not_occur_in_the_claim() {
     );
     let half = Tree::from(-1) / Tree::from(2);
     let vanishes = geometric_limit("", &half, &k * &q, 0);
-    assert_eq!(ProofPrinter::new(&NONE).claim(&vanishes), "k q → 0 for q = (−1 / 2)ʲ and j → ∞");
+    assert_eq!(
+        ProofPrinter::new(&NONE).claim(&vanishes),
+        "k q → 0 for q = (−1 / 2)ʲ and j → ∞, as |−1 / 2| < 1 and it is 0 at q = 0"
+    );
     let lines = ProofPrinter::new(&NONE).proof(&prove(&vanishes).unwrap());
     assert_eq!(
         lines[..2],

@@ -133,6 +133,12 @@ pub(super) fn justify(of: &ProofError, text: &dyn Fn(&Tree) -> String, factors: 
         WrongSign(value, sign) => format!("{} is {}", value.formula(factors), sign_text(*sign)),
         Unequal(value) => format!("the sides differ by {}", value.formula(factors)),
         UnknownLimit(value) => format!("no rule finds that {} has the stated limit", value.formula(factors)),
+        EndingHypothesis(of) => {
+            format!(
+                "the hypothesis on {} is not known to hold for all large values of the variable",
+                text(of)
+            )
+        }
         NotDifferentiable => "⟨·⟩ and min are not differentiable at kinks".to_string(),
         TooLarge(most) => format!("its proof exceeds the limit of {most} terms"),
         NotExpressed(reason) => format!("its proof cannot be checked: {reason}"),

@@ -24,6 +24,8 @@ pub enum ProofError {
     NotDifferentiable,
     /// No rule finds that a quantity has the stated limit.
     UnknownLimit(Quantity),
+    /// The hypothesis on this quantity is not known to hold for all large values of the variable of a limit.
+    EndingHypothesis(Tree),
     /// A sign was found that could not be expressed by certificates, for this reason.
     NotExpressed(&'static str),
     /// The statement does not satisfy a premise.

@@ -6,7 +6,7 @@ use super::leaf::Writer;
 use super::{Script, Target};
 use crate::formula::{Hypothesis, Proposition};
 use crate::number::tree::Op;
-use crate::proof::check::{Atom, Leaf, Node, Polynomial, Quotient, Reason, State};
+use crate::proof::check::{Atom, Leaf, Node, Polynomial, Quotient, State};
 use crate::proof::trace::{Step, reread, trace};
 
 /// A limit to be proved.
@@ -36,31 +36,12 @@ impl Script {
                 return Err("no limit".into());
             };
             let Node::Leaf(leaf) = target.proof()? else { return Err("a limit in cases".into()) };
-            let (state, mut steps) = trace(target.problem, &leaf, &[])?;
-            retain_facts(&state, &mut steps);
+            let (state, steps) = trace(target.problem, &leaf, &[])?;
             let of = reread(state.clone()).translate(of)?;
             let x = target.variable(Atom::Own(by))?;
             Limit { target, state: &state, leaf: &leaf, steps: &steps, by, x, of }.write(self)
         })
     }
-}
-
-/// Removes the steps about early values of the variable, whose facts are not kept.
-fn retain_facts(state: &State, steps: &mut Vec<Step>) {
-    let (mut is_shown, mut kept) = (vec![false; state.facts.iter().len()], Vec::new());
-    for step in steps.drain(..).rev() {
-        let is_kept = match &step {
-            Step::Sign { of, reason, facts, .. } => {
-                let i = if let Reason::Fact(i) = reason { *i } else { *facts };
-                let is_known = state.facts.get(i).is_ok_and(|(known, _)| known == of);
-                let is_fact = matches!(reason, Reason::Fact(_));
-                is_known && (is_fact || !std::mem::replace(&mut is_shown[i], true))
-            }
-            _ => true,
-        };
-        kept.extend(is_kept.then_some(step));
-    }
-    steps.extend(kept.into_iter().rev());
 }
 
 impl Limit<'_> {

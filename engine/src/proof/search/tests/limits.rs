@@ -54,6 +54,16 @@ fn a_limit_without_a_rule_is_named() {
 }
 
 #[test]
+fn a_hypothesis_that_excludes_large_values_is_named() {
+    let [c, t] = ["c", "t"].map(x);
+    let limit = || Proposition::Limit(int(1) / (int(1) + &t * &t), "t", int(0));
+    for ending in [above_zero(&c - &t), above_zero(&c * &t), Hypothesis::between(&t, int(1), int(2))] {
+        let outcome = outcome(vec![ending.clone()], limit());
+        assert!(matches!(outcome, Err(ProofError::EndingHypothesis(of)) if of == ending.value), "{ending}");
+    }
+}
+
+#[test]
 fn variables_of_limits_may_have_lower_bounds() {
     let [f, g, h] = ["f", "g", "h"].map(x);
     let above = |bound: &Tree| above_zero(&g - bound);
