@@ -25,7 +25,7 @@ use crate::formula::{Hypothesis, Statement};
 use crate::number::{Exact, Mpfr, NumberSystem};
 use checker::{Checker, ClaimTally, ErasedChecker};
 pub use coq::coq;
-pub use experiments::{Experiment, Trial, exact_experiments, float_experiments};
+pub use experiments::{Experiment, Trial, experiments};
 use num_traits::One;
 use proofs::{ProofAttempt, ProofOutcome};
 use rayon::prelude::*;
@@ -342,18 +342,18 @@ fn proof(statement: &Statement) -> ClaimResult {
 
 fn checks(scalar: NumberSystem) -> Box<dyn ErasedChecker> {
     match scalar {
-        NumberSystem::F32 => Box::new(Checker::new(Balls(0.0f32), claims())),
-        NumberSystem::F64 => Box::new(Checker::new(Balls(0.0f64), claims())),
-        NumberSystem::Mpfr(bits) => Box::new(Checker::new(Balls(Mpfr::rounded(bits, 0)), claims())),
-        NumberSystem::Exact => Box::new(Checker::new(Rationals::unrounded(), claims())),
+        NumberSystem::F32 => Box::new(Checker::new(Balls(0.0f32), claims(), experiments())),
+        NumberSystem::F64 => Box::new(Checker::new(Balls(0.0f64), claims(), experiments())),
+        NumberSystem::Mpfr(bits) => {
+            Box::new(Checker::new(Balls(Mpfr::rounded(bits, 0)), claims(), experiments()))
+        }
+        NumberSystem::Exact => Box::new(Checker::new(Rationals::unrounded(), claims(), Vec::new())),
     }
 }
 
 /// Returns the names of an entry's claims in all number systems.
 pub fn claim_names(equation: &str) -> Vec<&'static str> {
     let recorded = claims().filter(|c| !c.contains_rounding()).map(|c| (c.equation(), c.name()));
-    let floats = float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name));
-    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name));
-    let all = recorded.chain(floats).chain(rationals);
-    all.filter(|(e, _)| *e == equation).map(|(_, name)| name).collect()
+    let computed = experiments::<f64>().into_iter().map(|e| (e.equation, e.name));
+    recorded.chain(computed).filter(|(e, _)| *e == equation).map(|(_, name)| name).collect()
 }

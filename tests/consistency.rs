@@ -7,8 +7,7 @@ use spring_mass_contact::number::tree::Op;
 use spring_mass_contact::number::{NumberSystem, Program, Tree};
 use spring_mass_contact::solver::{Outcome, State};
 use spring_mass_contact::verify::{
-    ClaimResult, Options, Status, VerificationReport, claim_names, exact_experiments, float_experiments,
-    verify,
+    ClaimResult, Options, Status, VerificationReport, claim_names, experiments, verify,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -208,10 +207,8 @@ fn every_claim_has_an_entry_and_a_unique_name() {
 #[test]
 fn the_hypotheses_of_entries_match_those_of_their_claims() {
     let recorded = claims().map(|c| (c.equation(), c.stated_hypotheses().to_vec()));
-    let floats = float_experiments::<f64>().into_iter();
-    let floats = floats.map(|e| (e.equation, e.hypotheses));
-    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.hypotheses));
-    let all: Vec<_> = recorded.chain(floats).chain(rationals).collect();
+    let computed = experiments::<f64>().into_iter().map(|e| (e.equation, e.hypotheses));
+    let all: Vec<_> = recorded.chain(computed).collect();
     for e in entries() {
         let of_entry = || all.iter().filter(|(equation, _)| *equation == e.equation).map(|(_, given)| given);
         for hypothesis in &e.hypotheses {

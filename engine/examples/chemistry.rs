@@ -45,12 +45,12 @@ fn main() {
     ];
     let paper = ProofPrinter::new(&registry);
     for claim in claims.map(|claim| claim.assuming(&positives).assuming([&partly])) {
-        prove(&claim).unwrap_or_else(|reason| panic!("{}", paper.explain(&claim, &reason)));
+        prove(&claim).unwrap_or_else(|reason| panic!("{}", paper.describe(&claim, &reason)));
         println!("proved: {} ({})", paper.claim(&claim), claim.name());
     }
     // Without this hypothesis the law is undefined.
     let open = positive("constant", constant(&c, &alpha)).assuming(&positives);
-    println!("not proved: {}", paper.explain(&open, &prove(&open).expect_err("α may be 1")));
+    println!("not proved: {}", paper.describe(&open, &prove(&open).expect_err("α may be 1")));
     let twice = constant(&c, &(&two * &alpha)) - &two * &two * constant(&c, &alpha);
     let half = Hypothesis::new(Relation::Positive, Tree::int(1) - &two * &alpha);
     let wrong = equal("a-square-law", twice, 0).assuming(&positives).assuming([&half]);

@@ -51,7 +51,7 @@ fn main() {
     ];
     let paper = ProofPrinter::new(&registry);
     for claim in &claims {
-        prove(claim).unwrap_or_else(|reason| panic!("{}: {}", claim.name(), paper.explain(claim, &reason)));
+        prove(claim).unwrap_or_else(|reason| panic!("{}: {}", claim.name(), paper.describe(claim, &reason)));
         println!("proved: {} ({})", paper.claim(claim), claim.name());
     }
     let wrong = positive("always-converging", both.clone()).assuming(&lenses);

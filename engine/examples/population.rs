@@ -61,7 +61,7 @@ fn main() {
     ];
     let paper = ProofPrinter::new(&registry);
     for claim in &claims {
-        prove(claim).unwrap_or_else(|reason| panic!("{}", paper.explain(claim, &reason)));
+        prove(claim).unwrap_or_else(|reason| panic!("{}", paper.describe(claim, &reason)));
         println!("proved: {}", paper.claim(claim));
     }
     let wrong = positive("always-grows", &step - &n).assuming(&positives[..2]).assuming([&growing]);

@@ -36,7 +36,6 @@ pub mod coq;
 #[cfg(feature = "serde")]
 pub mod data;
 mod effort;
-mod hints;
 pub mod mutation;
 pub mod refute;
 pub mod render;
@@ -46,7 +45,6 @@ mod trace;
 pub use bounds::{RoundingBound, RoundingBoundError, rounding_bound};
 pub use check::{MAX_DEPTH, MAX_SIZE, Proof};
 pub use effort::MAX_EFFORT;
-pub use hints::sufficient_hypotheses;
 pub use mutation::{MutationReport, test_mutations};
 pub use refute::{Counterexample, Refutation, refute, tightest_point};
 pub use search::{ProofError, prove};

@@ -1,6 +1,6 @@
 //! Checks of claims in one number system.
 
-use super::experiments::{Experiment, Trial, exact_experiments, float_experiments};
+use super::experiments::{Experiment, Trial};
 use super::{ClaimResult, Options, Status};
 use crate::claims::Case;
 use crate::eval::{
@@ -12,9 +12,7 @@ use crate::formula::{Hypothesis, Proposition, Statement};
 use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, Program, Real, ToExact};
 use crate::solver::Scalar;
 use num_traits::Zero;
-use std::any::Any;
 use std::fmt::Debug;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Identification and hypotheses of a claim in any number system.
 #[derive(Clone)]
@@ -86,14 +84,11 @@ impl ClaimTally {
         }
     }
 
-    /// Runs an experiment. A panic counts as a failure: rationals are divided by zero, or code relies on
-    /// correct formulas. An experiment only computes, so a panic leaves no inconsistent state.
     fn try_experiment<T>(&mut self, case: &Case<Exact>, experiment: &Experiment<T>, computed: &Case<T>) {
-        match catch_unwind(AssertUnwindSafe(|| (experiment.check)(computed))) {
-            Err(panic) => self.decide(case, false, Some(message(&*panic))),
-            Ok(Trial::Undecided) => self.skip(),
-            Ok(Trial::Decided(holds)) => self.decide(case, holds, None),
-            Ok(Trial::Within { error, bound }) => {
+        match (experiment.check)(computed) {
+            Trial::Undecided => self.skip(),
+            Trial::Decided(holds) => self.decide(case, holds, None),
+            Trial::Within { error, bound } => {
                 self.measure(ratio(&error, &bound), || Mpfr::rounded(24, bound.as_rational()).to_string());
                 self.decide(case, error <= bound, None);
             }
@@ -145,13 +140,6 @@ impl ClaimTally {
     }
 }
 
-/// Returns the message of a panic.
-fn message(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().copied();
-    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-    text.unwrap_or("it panics").to_string()
-}
-
 /// Number system in which claims are checked.
 pub(super) trait NumberDomain: Domain<Value: Quantity> + Sync {
     /// Numbers of the experiments.
@@ -160,13 +148,11 @@ pub(super) trait NumberDomain: Domain<Value: Quantity> + Sync {
     /// Whether it has exponentials.
     const EXPONENTIALS: bool;
 
-    fn experiments() -> Vec<Experiment<Self::Number>>;
+    /// Returns the value of a number, which is unknown if it is out of range.
+    fn value(&self, x: &Exact) -> Self::Value;
 
-    /// Returns the value of a number; `None` if it is out of range.
-    fn value(&self, x: &Exact) -> Option<Self::Value>;
-
-    /// Returns the number that experiments use for the value of a number.
-    fn number(value: &Self::Value) -> Self::Number;
+    /// Returns the number that experiments use; `None` if it is out of range.
+    fn number(&self, x: &Exact) -> Option<Self::Number>;
 
     /// Returns the difference of the two sides of an equation that holds, and its bound.
     fn difference(left: &Self::Value, right: &Self::Value) -> [Self::Number; 2];
@@ -175,14 +161,11 @@ pub(super) trait NumberDomain: Domain<Value: Quantity> + Sync {
 impl NumberDomain for Rationals {
     type Number = Exact;
     const EXPONENTIALS: bool = false;
-    fn experiments() -> Vec<Experiment<Exact>> {
-        exact_experiments()
+    fn value(&self, x: &Exact) -> Value {
+        Value::Exact(x.clone())
     }
-    fn value(&self, x: &Exact) -> Option<Value> {
-        Some(Value::Exact(x.clone()))
-    }
-    fn number(value: &Value) -> Exact {
-        value.exact().expect("no exponentials").clone()
+    fn number(&self, x: &Exact) -> Option<Exact> {
+        Some(x.clone())
     }
     fn difference(_: &Value, _: &Value) -> [Exact; 2] {
         [Exact::zero(), Exact::zero()]
@@ -195,14 +178,11 @@ where
 {
     type Number = T;
     const EXPONENTIALS: bool = true;
-    fn experiments() -> Vec<Experiment<T>> {
-        float_experiments()
+    fn value(&self, x: &Exact) -> Ball<T> {
+        self.enclose(x).unwrap_or_else(|_| Ball::entire())
     }
-    fn value(&self, x: &Exact) -> Option<Ball<T>> {
-        self.enclose(x).ok()
-    }
-    fn number(value: &Ball<T>) -> T {
-        value.value().clone()
+    fn number(&self, x: &Exact) -> Option<T> {
+        self.0.round_from_exact(x).ok()
     }
     fn difference(left: &Ball<T>, right: &Ball<T>) -> [T; 2] {
         let difference = left - right;
@@ -280,13 +260,8 @@ pub(super) struct Checker<D: NumberDomain> {
 }
 
 impl<D: NumberDomain> Checker<D> {
-    /// Returns a checker of the claims that can be evaluated in these numbers.
-    pub(super) fn new<'a>(domain: D, claims: impl IntoIterator<Item = &'a Statement>) -> Self {
-        let experiments = D::experiments();
-        Checker::with(domain, claims, experiments)
-    }
-
-    pub(super) fn with<'a>(
+    /// Returns a checker of the claims that can be evaluated in these numbers, and of experiments.
+    pub(super) fn new<'a>(
         domain: D,
         claims: impl IntoIterator<Item = &'a Statement>,
         experiments: Vec<Experiment<D::Number>>,
@@ -323,26 +298,27 @@ impl<D: NumberDomain> ErasedChecker for Checker<D> {
         if tallies.is_empty() {
             return tallies;
         }
-        for exact in cases {
-            let values = exact.as_ref().and_then(|case| {
-                let values = Case::try_of(|var| self.domain.value(case.get(var)).ok_or(()));
-                Some((case, values.ok()?))
-            });
-            let Some((exact, case)) = values else {
-                tallies.iter_mut().for_each(|(_, tally)| tally.skip());
+        let (of_claims, of_experiments) = tallies.split_at_mut(claims.len());
+        for case in cases {
+            let Some(case) = case else {
+                of_claims.iter_mut().chain(&mut *of_experiments).for_each(|(_, tally)| tally.skip());
                 continue;
             };
-            let (of_claims, of_experiments) = tallies.split_at_mut(claims.len());
             if let Some(group) = group.filter(|_| !claims.is_empty()) {
-                let values = Evaluation::of(&group.program, &self.domain, |name| case.get_by_symbol(name));
-                for ((_, claim), (_, tally)) in claims.iter().zip(of_claims) {
-                    tally.evaluate(exact, &values, claim);
+                let symbol = |name: &'static str| self.domain.value(&case.get_by_symbol(name));
+                let values = Evaluation::of(&group.program, &self.domain, symbol);
+                for ((_, claim), (_, tally)) in claims.iter().zip(&mut *of_claims) {
+                    tally.evaluate(case, &values, claim);
                 }
             }
-            if !experiments.is_empty() {
-                let numbers = case.map(|_, value| D::number(value));
-                for ((_, experiment), (_, tally)) in experiments.iter().zip(of_experiments) {
-                    tally.try_experiment(exact, experiment, &numbers);
+            if experiments.is_empty() {
+                continue;
+            }
+            let numbers = Case::try_of(|var| self.domain.number(case.get(var)).ok_or(()));
+            for ((_, experiment), (_, tally)) in experiments.iter().zip(&mut *of_experiments) {
+                match &numbers {
+                    Ok(numbers) => tally.try_experiment(case, experiment, numbers),
+                    Err(()) => tally.skip(),
                 }
             }
         }

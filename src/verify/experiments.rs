@@ -1,4 +1,4 @@
-//! Experiments on computed numbers: bounds and outcomes of the solver, changes of units, counts of steps.
+//! Experiments on computed floats: bounds and outcomes of the solver, changes of units.
 //!
 //! The book's page on floating point derives the bounds. Exact results are those for the parameters as
 //! represented in their scalar.
@@ -7,17 +7,14 @@ mod rounding_claims;
 #[cfg(test)]
 mod tests;
 
-use crate::chapter::{SpringMass, augmented, contact, penalty, structure, system};
-use crate::claims::{Case, Var, hypotheses};
+use crate::chapter::{SpringMass, contact, penalty, system};
+use crate::claims::{Case, Var, hypotheses, symbols};
 use crate::formula::Hypothesis;
-use crate::number::{Exact, PositivePart, Real, ToExact};
-use crate::solver::{
-    Augmentation, Interval, Iterate, Method, Outcome, Plane, Scalar, Solution, SolveError, State,
-    exact_augmentation_count, series_penetration, solve, solve_bilateral,
-};
-use num_traits::{One, Zero};
+use crate::number::tree::piecewise_ops;
+use crate::number::{Exact, PositivePart, Real, ToExact, Tree};
+use crate::solver::{Interval, Method, Outcome, Scalar, Solution, SolveError, State, solve, solve_bilateral};
+use num_traits::Zero;
 use std::cmp::Ordering;
-use std::iter::successors;
 use std::sync::Arc;
 
 /// Result of one trial of an experiment.
@@ -75,16 +72,14 @@ const STEPS: usize = 24;
 /// Largest number of steps to a fixed point.
 const MAX_STEPS: usize = 1000;
 
-/// Returns the experiments on floats: claims proved for every precision, then properties that are only
+/// Returns the experiments: claims proved for every precision, then properties that are only
 /// tested.
-pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
+pub fn experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
     let tried = list! {
         "1.6" "exact-state" "The state corresponds to the exact sign of R."
             [stiffness grazing] |x| state(x, State::of);
         "1.8" "bounds-contain" "The bounds contain the exact u, p and N."
             [stiffness] |x| bounds(x, &Method::Lagrange, solve);
-        "1.10" "root" "The exact residual changes sign between the neighbours of the computed root."
-            [stiffness penalty quartic] |x| series_root(x, series_penetration);
         "1.13" "bounds-contain" "The bounds contain the exact u, p and N."
             [stiffness penalty] |x: &Case<T>| bounds(x, &Method::Penalty { penalty: x.eps.clone() }, solve);
         "1.33" "promise"
@@ -95,26 +90,6 @@ pub fn float_experiments<T: Scalar + Real + ToExact>() -> Vec<Experiment<T>> {
             [stiffness penalty tolerance] |x| units(x, solve_bilateral);
     };
     rounding_claims::experiments().into_iter().chain(tried).collect()
-}
-
-/// Returns the experiments on exact results.
-pub fn exact_experiments() -> Vec<Experiment<Exact>> {
-    list! {
-        "1.33" "steps" "With unilateral contact the iteration stops at the k for which (1.33) is solved."
-            [stiffness penalty tolerance]
-            |x| count(x, Plane::Unilateral, exact_steps(x, &x.lambda, Plane::Unilateral));
-        "1.33" "steps-bilateral" "With bilateral contact it stops at the k for which (1.33) is solved."
-            [stiffness penalty tolerance]
-            |x| count(x, Plane::Bilateral, exact_steps(x, &x.lambda, Plane::Bilateral));
-        "1.33" "tie-goes-on" "If |p₂| is equal to the tolerance, the iteration stops at k = 3."
-            [stiffness penalty tolerance] |x| tie(x, exact_steps(x, &start_of_tie(x), Plane::Bilateral));
-        "note 4" "closed-form" "λ_k = R + ρ^{k−1} (λ_1 − R) for k from 2 to 6."
-            [stiffness penalty in_contact]
-            |x| unilateral_closed_form(x, exact_steps(x, &x.lambda, Plane::Unilateral));
-        "note 4" "release"
-            "λ_k is first 0 at the K of the note, and the mass is separated from step max(K − 1, 0) on."
-            [stiffness penalty separated] |x| release(x, exact_steps(x, &x.lambda, Plane::Unilateral));
-    }
 }
 
 // Solver of a system by a method; an argument of the experiments, so that tests can pass a wrong one.
@@ -135,18 +110,29 @@ fn exact<T: ToExact>(x: &T) -> Option<Exact> {
     x.to_exact().ok()
 }
 
+/// Returns the numbers of a case in rationals.
+fn exact_case<T: ToExact>(x: &Case<T>) -> Option<Case<Exact>> {
+    Case::try_of(|var| x.get(var).to_exact()).ok()
+}
+
+/// Returns the value in rationals of a formula of the parameters and ε; `None` if a divisor is 0.
+fn exact_value(x: &Case<Exact>, formula: &Tree) -> Option<Exact> {
+    formula.eval(&|name| x.get_by_symbol(name), &piecewise_ops)
+}
+
 /// Checks that the state corresponds to the exact sign of R.
 fn state<T: Scalar + ToExact>(
     x: &Case<T>,
     of: impl Fn(&SpringMass<T>) -> Result<State, SolveError>,
 ) -> Trial {
-    let Ok(system) = x.system.try_map(|y| y.to_exact()) else { return Trial::Undecided };
-    let expected = match system::reaction(&system).cmp(&Exact::zero()) {
-        Ordering::Greater => State::Contact,
-        Ordering::Equal => State::Grazing,
-        Ordering::Less => State::Separated,
-    };
-    of(&x.system).map_or(Trial::Undecided, |state| Trial::Decided(state == expected))
+    let (Some(exact), Ok(state)) = (exact_case(x), of(&x.system)) else { return Trial::Undecided };
+    let expected =
+        exact_value(&exact, &system::reaction(&symbols().system)).map(|r| match r.cmp(&Exact::zero()) {
+            Ordering::Greater => State::Contact,
+            Ordering::Equal => State::Grazing,
+            Ordering::Less => State::Separated,
+        });
+    Trial::Decided(Some(state) == expected)
 }
 
 fn encloses<T: ToExact>(interval: &Interval<T>, x: &Exact) -> bool {
@@ -154,68 +140,34 @@ fn encloses<T: ToExact>(interval: &Interval<T>, x: &Exact) -> bool {
         && interval.upper.to_exact().is_ok_and(|upper| *x <= upper)
 }
 
-/// Returns the exact deflection and contact force of a method with unilateral contact.
-fn answer(system: &SpringMass<Exact>, penalty: Option<&Exact>) -> (Exact, Exact) {
-    let touches = system::reaction(system) > Exact::zero();
-    match penalty.filter(|_| touches) {
-        Some(eps) => (penalty::deflection(system, eps), penalty::contact_force_at_equilibrium(system, eps)),
-        None => (contact::deflection(system), contact::contact_force(system)),
-    }
+/// Returns the exact deflection, penetration and contact force with unilateral contact, by the penalty method or by
+/// the Lagrange multiplier; `None` if a divisor is 0.
+fn exact_answer(x: &Case<Exact>, by_penalty: bool) -> Option<[Exact; 3]> {
+    let Case { system: s, eps, .. } = symbols();
+    let touches = exact_value(x, &system::reaction(s))? > Exact::zero();
+    let (u, force) = if by_penalty && touches {
+        (penalty::deflection(s, eps), penalty::contact_force_at_equilibrium(s, eps))
+    } else {
+        (contact::deflection(s), contact::contact_force(s))
+    };
+    let p = contact::penetration(s, &u);
+    Some([exact_value(x, &u)?, exact_value(x, &p)?, exact_value(x, &force)?])
 }
 
-fn contains_answer<T: Scalar + ToExact>(
-    solution: &Solution<T>,
-    s: &SpringMass<Exact>,
-    eps: Option<&Exact>,
-) -> bool {
-    let (u, force) = answer(s, eps);
-    encloses(&solution.bounds.deflection, &u)
-        && encloses(&solution.bounds.penetration, &contact::penetration(s, &u))
-        && encloses(&solution.bounds.contact_force, &force)
+fn contains_answer<T: Scalar + ToExact>(solution: &Solution<T>, x: &Case<Exact>, by_penalty: bool) -> bool {
+    exact_answer(x, by_penalty).is_some_and(|[u, p, force]| {
+        encloses(&solution.bounds.deflection, &u)
+            && encloses(&solution.bounds.penetration, &p)
+            && encloses(&solution.bounds.contact_force, &force)
+    })
 }
 
 /// Checks that the bounds of a direct method contain its exact solution.
 fn bounds<T: Scalar + ToExact>(x: &Case<T>, method: &Method<T>, solve: impl Solver<T>) -> Trial {
-    let (Ok(system), Ok(solution)) = (x.system.try_map(|y| y.to_exact()), solve(&x.system, method)) else {
+    let (Some(exact), Ok(solution)) = (exact_case(x), solve(&x.system, method)) else {
         return Trial::Undecided;
     };
-    let eps = match method {
-        Method::Penalty { penalty } => exact(penalty),
-        Method::Lagrange | Method::Augmented { .. } => None,
-    };
-    Trial::Decided(contains_answer(&solution, &system, eps.as_ref()))
-}
-
-/// Checks that the exact residual of (1.10) changes sign between the two neighbours of the root.
-fn series_root<T: Scalar + Real + ToExact>(
-    x: &Case<T>,
-    root: impl Fn(&SpringMass<T>, &T, &[T]) -> Result<T, SolveError>,
-) -> Trial {
-    let (Ok(system), Some(eps), Some(eps4)) =
-        (x.system.try_map(|y| y.to_exact()), exact(&x.eps), exact(&x.eps4))
-    else {
-        return Trial::Undecided;
-    };
-    let Ok(root) = root(&x.system, &x.eps, std::slice::from_ref(&x.eps4)) else { return Trial::Undecided };
-    // A zero without a precision has no neighbours.
-    if root.is_zero() {
-        let at_root = exact_series_residual(&system, &eps, &eps4, &root);
-        return at_root.map_or(Trial::Undecided, |residual| Trial::Decided(residual.is_zero()));
-    }
-    let neighbours = [Real::next_down(root.clone()), Real::next_up(root)];
-    match neighbours.map(|p| exact_series_residual(&system, &eps, &eps4, &p)) {
-        [Some(below), Some(above)] => Trial::Decided(below < Exact::zero() && Exact::zero() < above),
-        _ => Trial::Undecided,
-    }
-}
-
-fn exact_series_residual<T: ToExact>(
-    system: &SpringMass<Exact>,
-    eps: &Exact,
-    eps4: &Exact,
-    p: &T,
-) -> Option<Exact> {
-    Some(penalty::series_residual(system, eps, std::slice::from_ref(eps4), &exact(p)?))
+    Trial::Decided(contains_answer(&solution, &exact, matches!(method, Method::Penalty { .. })))
 }
 
 /// Returns (1.16) with the numbers of a case, for [`STEPS`] steps.
@@ -227,24 +179,22 @@ fn by_augmentation<T: Clone>(x: &Case<T>) -> Method<T> {
 /// Checks that the exact |û − u*| is below the tolerance if the outcome is `converged`, and not above the
 /// floor if it is `stagnated`; that the bounds contain the limit; and that N ≥ 0.
 fn promise<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Trial {
-    let (Ok(system), Ok(solution)) =
-        (x.system.try_map(|y| y.to_exact()), solve(&x.system, &by_augmentation(x)))
-    else {
+    let (Some(exact_x), Ok(solution)) = (exact_case(x), solve(&x.system, &by_augmentation(x))) else {
         return Trial::Undecided;
     };
-    let (Some(u), Some(tolerance)) = (exact(&solution.deflection), exact(&x.tol)) else {
-        return Trial::Undecided;
+    let Some(u) = exact(&solution.deflection) else { return Trial::Undecided };
+    let Some(limit) = exact_value(&exact_x, &contact::deflection(&symbols().system)) else {
+        return Trial::Decided(false);
     };
-    let limit = contact::deflection(&system);
     let error = (u - limit).abs();
     let kept = match solution.outcome {
-        Outcome::Converged => error < tolerance,
+        Outcome::Converged => error < exact_x.tol,
         Outcome::Stagnated => solution.floor.as_ref().and_then(exact).is_some_and(|floor| error <= floor),
         Outcome::IterationLimit => solution.augmentations == Some(STEPS as u64),
         Outcome::Direct => false,
     };
     let pushes = solution.contact_force >= T::zero();
-    Trial::Decided(kept && pushes && contains_answer(&solution, &system, None))
+    Trial::Decided(kept && pushes && contains_answer(&solution, &exact_x, false))
 }
 
 /// Checks that a change of units by powers of two changes no digit.
@@ -283,86 +233,4 @@ fn unit(var: Var) -> i32 {
 
 fn scale<T: Scalar>(x: &T, n: i32) -> T {
     x.clone() * power_of_two::<T>(n)
-}
-
-/// Returns the iterates of (1.16) in rationals, at most [`STEPS`], and only while they have no more digits
-/// than correct formulas need: with wrong ones the number of digits can double in each step.
-///
-/// The closed forms of λ_k and u_k are quotients of degree at most k + 1 in c and ε, and of degree 1 in all
-/// other quantities. If all parameters, numerators and denominators together, have s digits, then numerator
-/// and denominator of λ_k and of u_k have at most 2 (k + 1) s digits each, 8 (k + 1) s together. The rest is
-/// a margin for carries.
-fn exact_steps<'a>(
-    x: &'a Case<Exact>,
-    start: &Exact,
-    plane: Plane,
-) -> impl Iterator<Item = Iterate<Exact>> + use<'a> {
-    let SpringMass { c, m, g, l, h } = &x.system;
-    let digits: u64 = [c, m, g, l, h, &x.eps, start].into_iter().map(Exact::bit_length).sum();
-    let steps = Augmentation::new(&x.system, &x.eps).with_multiplier(start.clone()).over(plane).take(STEPS);
-    steps.take_while(move |step| {
-        step.multiplier.bit_length() + step.deflection.bit_length() <= 8 * (step.k + 2) * digits
-    })
-}
-
-/// Checks that the iteration first meets the tolerance at the k for which (1.33) is solved.
-fn count(x: &Case<Exact>, plane: Plane, mut steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
-    let k = exact_augmentation_count(&x.system, &x.eps, &x.tol, &x.lambda, plane);
-    let Some(k) = k.ok().and_then(|k| k.to_usize()).filter(|k| *k < STEPS) else { return Trial::Undecided };
-    let found = steps.position(|Iterate { multiplier, deflection, penetration, .. }| {
-        let residual = match plane {
-            Plane::Unilateral => augmented::natural_residual(&x.system, &x.eps, &multiplier, &deflection),
-            Plane::Bilateral => penetration,
-        };
-        augmented::within_tolerance(&residual, &x.tol)
-    });
-    Trial::Decided(found == Some(k))
-}
-
-/// Returns the λ₀ for which p₂ *is* the tolerance.
-fn start_of_tie(x: &Case<Exact>) -> Exact {
-    let ratio = augmented::contraction(&x.system, &x.eps);
-    let missing = penalty::total_stiffness(&x.system, &x.eps) * &x.tol / (&ratio * &ratio);
-    system::reaction(&x.system) - missing
-}
-
-/// Checks that an iteration with |p₂| equal to the tolerance continues, and stops at k = 3.
-fn tie(x: &Case<Exact>, mut steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
-    let found = steps.position(|step| augmented::within_tolerance(&step.penetration, &x.tol));
-    Trial::Decided(found == Some(3))
-}
-
-/// Checks that λ_k = R + ρ^{k−1} (λ₁ − R) for R ≥ 0 and every λ₀, for k from 2 to 6.
-fn unilateral_closed_form(x: &Case<Exact>, steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
-    let steps: Vec<_> = steps.skip(1).take(6).collect();
-    let [first, later @ ..] = steps.as_slice() else { return Trial::Decided(false) };
-    let ratio = augmented::contraction(&x.system, &x.eps);
-    let mut decay = Exact::one();
-    let holds = later.iter().all(|step| {
-        decay = &decay * &ratio;
-        step.multiplier == augmented::multiplier_after(&x.system, &first.multiplier, &decay)
-    });
-    Trial::Decided(holds && later.len() == 5)
-}
-
-/// Checks that for R < 0 the multiplier is first 0 at K, and the mass separated from step max(K − 1, 0) on.
-fn release(x: &Case<Exact>, steps: impl Iterator<Item = Iterate<Exact>>) -> Trial {
-    let steps: Vec<_> = steps.collect();
-    if steps.len() < STEPS {
-        return Trial::Decided(false);
-    }
-    let Some(first) = steps.iter().position(|step| step.multiplier.is_zero()) else {
-        return Trial::Undecided;
-    };
-    // K is 1 for a negative start, otherwise the smallest k for which the closed form is not positive.
-    let ratio = augmented::contraction(&x.system, &x.eps);
-    let mut decays = successors(Some(Exact::one()), |decay| Some(decay * &ratio)).take(STEPS);
-    let expected = if x.lambda < Exact::zero() {
-        Some(1)
-    } else {
-        decays.position(|decay| augmented::multiplier_after(&x.system, &x.lambda, &decay) <= Exact::zero())
-    };
-    let free = structure::deflection(&x.system);
-    let hangs = steps.iter().skip(first.saturating_sub(1)).all(|step| step.deflection == free);
-    Trial::Decided(Some(first) == expected && hangs)
 }

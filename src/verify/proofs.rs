@@ -41,7 +41,7 @@ impl ProofAttempt {
         let outcome = match prove(&statement) {
             Ok(proof) => ProofOutcome::Proof(proof.into()),
             Err(error) => {
-                let reason = ProofPrinter::new(registry()).explain(&statement, &error);
+                let reason = ProofPrinter::new(registry()).describe(&statement, &error);
                 ProofOutcome::None(reason, refute(&statement))
             }
         };

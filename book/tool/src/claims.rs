@@ -10,7 +10,7 @@ use spring_mass_contact::{
     formula::Hypothesis,
     number::NumberSystem,
     proof::render::ProofPrinter,
-    verify::{ClaimResult, Options, Status, exact_experiments, float_experiments, verify},
+    verify::{ClaimResult, Options, Status, experiments, verify},
 };
 use std::{collections::HashMap, fmt::Write, sync::LazyLock};
 
@@ -111,12 +111,9 @@ type ClaimText = (String, Vec<String>);
 /// Returns the texts of all claims by equation number and claim name.
 fn claim_texts() -> HashMap<(&'static str, &'static str), ClaimText> {
     let format = |hypotheses: &[Hypothesis]| registry().format_hypotheses(hypotheses);
-    let floats =
-        float_experiments::<f64>().into_iter().map(|e| (e.equation, e.name, e.statement, e.hypotheses));
-    let rationals = exact_experiments().into_iter().map(|e| (e.equation, e.name, e.statement, e.hypotheses));
-    let tested = floats.chain(rationals).filter_map(|(equation, name, statement, hypotheses)| {
-        Some(((equation, name), (with_indices(statement?), format(&hypotheses))))
-    });
+    let tested = experiments::<f64>()
+        .into_iter()
+        .filter_map(|e| Some(((e.equation, e.name), (with_indices(e.statement?), format(&e.hypotheses)))));
     let recorded = claims().map(|claim| {
         // Invariants are part of the proof and not hypotheses of the claim.
         let hypotheses = claim.stated_hypotheses().iter().filter(|h| claim.hypotheses().contains(h));

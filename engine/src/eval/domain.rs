@@ -2,7 +2,7 @@
 
 use crate::formula::Relation;
 use crate::number::tree::{Op, all_ops, piecewise_ops};
-use crate::number::{Ball, Exact, Exponential, Field, PositivePart, RangeError, Real, ToExact};
+use crate::number::{Ball, Exact, Exponential, PositivePart, RangeError, Real, ToExact};
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
 use std::fmt;
@@ -75,13 +75,13 @@ pub enum Value {
 impl Value {
     /// Returns the enclosure of all numbers.
     pub fn unknown() -> Self {
-        Value::Ball(Ball::one() / (Ball::one() / Ball::int(3) * Ball::int(3) - Ball::one()))
+        Value::Ball(Ball::entire())
     }
 
     /// Returns an enclosure, which is infinite for a number outside the range of f64.
     pub(super) fn ball(&self) -> Ball<f64> {
         match self {
-            Value::Exact(x) => Ball::enclosing(&0.0, x).unwrap_or_else(|_| Value::unknown().ball()),
+            Value::Exact(x) => Ball::enclosing(&0.0, x).unwrap_or_else(|_| Ball::entire()),
             Value::Ball(ball) => ball.clone(),
         }
     }

@@ -147,6 +147,19 @@ impl<T: Real> Ball<T> {
         self.radius.partial_cmp(&self.radius).is_none()
     }
 
+    /// Returns the ball of all numbers, about which nothing is known.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use provable::number::Ball;
+    /// let unknown = Ball::<f64>::entire();
+    /// assert!(unknown.sign().is_none() && !unknown.is_finite() && !unknown.is_undefined());
+    /// ```
+    pub fn entire() -> Self {
+        Ball { value: T::zero(), radius: T::infinity() }
+    }
+
     /// Returns the result of an operation from a radius that is not inflated yet and the radii of the
     /// operands.
     #[inline]

@@ -8,13 +8,10 @@ mod text;
 pub use summary::proof_summary;
 
 use self::lines::Lines;
-use self::text::Order;
 use super::check::Proof;
 use super::check::{Leaf, Node, Problem};
 #[cfg(feature = "serde")]
 use super::data::GoalProof;
-use super::search::algebra::Poly;
-use super::search::context::Context;
 use crate::formula::claim::{MEMBERS, POWER};
 use crate::formula::statement::{Goal, Proposition, Role, Sequence, Statement};
 use crate::formula::{Call, Formula, Notation, Registry};
@@ -288,11 +285,6 @@ const LETTERS: [(char, char); 12] = [
     ('y', 'ʸ'),
     ('z', 'ᶻ'),
 ];
-
-/// Returns a polynomial as a formula.
-pub(super) fn formula(poly: &Poly, context: &Context) -> Tree {
-    Order { context, factors: &[] }.poly(poly)
-}
 
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,7 @@ use super::*;
 use crate::chapter::SpringMass;
 use crate::claims::{Hypotheses, claims};
 use crate::number::{Real, ToExact};
-use crate::verify::{exact_experiments, float_experiments};
+use crate::verify::experiments;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -20,9 +20,7 @@ fn groups() -> BTreeMap<String, Vec<Hypothesis>> {
     // Experiments check claims about rounding.
     let claims =
         claims().filter(|claim| !claim.contains_rounding()).map(|claim| claim.stated_hypotheses().to_vec());
-    let floats = float_experiments::<f64>().into_iter();
-    let rationals = exact_experiments().into_iter().map(|experiment| experiment.hypotheses);
-    let experiments = floats.map(|experiment| experiment.hypotheses).chain(rationals);
+    let experiments = experiments::<f64>().into_iter().map(|experiment| experiment.hypotheses);
     let text = |given: &[Hypothesis]| given.iter().map(|h| format!("{h}, ")).collect();
     claims.chain(experiments).map(|given| (text(&given), given)).collect()
 }

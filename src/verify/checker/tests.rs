@@ -20,7 +20,7 @@ fn int(n: i32) -> Tree {
 /// Returns the tally of a claim for one case in a number system.
 fn tally<D: NumberDomain>(domain: D, case: Case<Exact>, claim: Statement) -> ClaimTally {
     let hypotheses = claim.stated_hypotheses().to_vec();
-    let checker = Checker::with(domain, [&claim], Vec::new());
+    let checker = Checker::new(domain, [&claim], Vec::new());
     let mut tallies = checker.check(&hypotheses, &Options::default(), &[Some(case)]);
     tallies.remove(0).1
 }

@@ -4,7 +4,8 @@ use super::{Experiment, MAX_STEPS, STEPS, Trial, UNITS, check, power_of_two};
 use crate::chapter::{SpringMass, augmented, structure, system};
 use crate::claims::{Case, claims, symbols};
 use crate::eval::{
-    Compiled, Computed, Domain, Evaluation, Floats, Instance, Quantity, Test, Value, instances, premises,
+    Compiled, Computed, Domain, Evaluation, Floats, Instance, Quantity, Test, UNFOLDED_MEMBERS, Value,
+    instances, premises,
 };
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Proposition, Statement};
@@ -101,7 +102,7 @@ struct RoundingClaim {
 
 impl RoundingClaim {
     fn of(statement: &Statement) -> Self {
-        let instances = instances(statement, STEPS);
+        let instances = instances(statement, UNFOLDED_MEMBERS);
         RoundingClaim {
             statement: statement.clone(),
             bounds_vanish: bounds_vanish(&instances),

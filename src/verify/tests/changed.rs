@@ -14,7 +14,7 @@ fn findings<J: NumberDomain>(
     claims: &[Statement],
     drawn: &Drawn,
 ) -> Vec<(&'static str, &'static str)> {
-    let checker = Checker::with(judge, claims, Vec::new());
+    let checker = Checker::new(judge, claims, Vec::new());
     let keys = checker.keys();
     let mut found = Vec::new();
     for (hypotheses, cases) in drawn.values() {

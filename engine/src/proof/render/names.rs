@@ -7,7 +7,6 @@ use crate::formula::name_of_rounding;
 use crate::formula::statement::Statement;
 use crate::number::Tree;
 use crate::proof::ProofError;
-use crate::proof::hints::sufficient_hypotheses;
 use crate::proof::search::Quantity;
 use crate::proof::search::assumption::AssumptionUse;
 use crate::proof::search::context::Context;
@@ -16,6 +15,19 @@ use crate::proof::search::error::Symbol;
 impl ProofPrinter<'_> {
     /// Returns the reason why a proof failed, with definitions of the names of the search: `no
     /// rule finds the sign of a − s₁: the term −s₁ is < 0, where s₁ = b − a > 0`.
+    ///
+    /// # Examples
+    /// ```
+    /// use provable::formula::{Hypothesis, Registry, Relation, claim::positive};
+    /// use provable::proof::{render::ProofPrinter, prove};
+    /// let [f, g] = ["f", "g"].map(|name| provable::number::Tree::symbol(name));
+    /// let converging = Hypothesis::new(Relation::Positive, f.clone());
+    /// let claim = positive("real image", &f * &g / (&g - &f)).assuming([&converging]);
+    /// assert_eq!(
+    ///     ProofPrinter::new(&Registry::default()).describe(&claim, &prove(&claim).unwrap_err()),
+    ///     "the divisor g − f might be 0"
+    /// );
+    /// ```
     pub fn describe(&self, statement: &Statement, reason: &ProofError) -> String {
         if let Some(registry) = self.other_names(statement) {
             return ProofPrinter::new(&registry).describe(statement, reason);
@@ -44,30 +56,6 @@ impl ProofPrinter<'_> {
             return message;
         }
         format!("{message}, where {}", definitions.join(" and "))
-    }
-
-    /// Returns the reason why a proof failed, and up to three [hypotheses](sufficient_hypotheses) with
-    /// which there is one.
-    ///
-    /// # Examples
-    /// ```
-    /// use provable::formula::{Hypothesis, Registry, Relation, claim::positive};
-    /// use provable::proof::{render::ProofPrinter, prove};
-    /// let [f, g] = ["f", "g"].map(|name| provable::number::Tree::symbol(name));
-    /// let converging = Hypothesis::new(Relation::Positive, f.clone());
-    /// let claim = positive("real image", &f * &g / (&g - &f)).assuming([&converging]);
-    /// assert_eq!(
-    ///     ProofPrinter::new(&Registry::default()).explain(&claim, &prove(&claim).unwrap_err()),
-    ///     "the divisor g − f might be 0; it is proved if g > f or if g < 0"
-    /// );
-    /// ```
-    pub fn explain(&self, statement: &Statement, reason: &ProofError) -> String {
-        if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter::new(&registry).explain(statement, reason);
-        }
-        let hypotheses = self.registry.format_hypotheses(&sufficient_hypotheses(statement, reason));
-        let hint = if hypotheses.is_empty() { "" } else { "; it is proved if " };
-        self.describe(statement, reason) + hint + &hypotheses.join(" or if ")
     }
 
     /// Defines an error: `fl(a b) = (a b) (1 + e₁ / (2ᵖ + 1)) with |e₁| ≤ 1`.

@@ -69,8 +69,7 @@ fn a_function_whose_name_is_taken_is_written_out() {
     let inside = Hypothesis::between(&other, 0, spring(&a, &b));
     let claim = positive("", less);
     let reason = prove(&claim).unwrap_err();
-    let texts = [paper.describe(&claim, &reason), paper.explain(&claim, &reason)];
-    assert_eq!(texts, ["no rule finds the sign of a b − c"; 2]);
+    assert_eq!(paper.describe(&claim, &reason), "no rule finds the sign of a b − c");
     assert_eq!(paper.used(&prove(&claim.clone().assuming([&above])).unwrap()), ["c < a b"]);
     let computing = claim.assuming([&inside]).computing(&other, &a * &b);
     assert_eq!(paper.invariants(&computing), ["0 ≤ c ≤ a b"]);

@@ -80,7 +80,7 @@ fn members_and_powers_of_a_sequence_are_followed() {
     let step = |x: &Tree| x + u.round();
     let law = |times: i32| perturbed_recursion("law", 1).start(0).step(step).near(0, int(times) * u);
     // The last of the members is followed, and no other.
-    let last = STEPS as i32 - 1;
+    let last = UNFOLDED_MEMBERS as i32 - 1;
     assert_eq!((tried(&law(last)), tried(&law(last - 1))), (Trial::Decided(true), Trial::Decided(false)));
     let halved = |bound: Tree| {
         perturbed_recursion("law", int(1) / int(2)).start(u).step(|x| x.round() / int(2)).near(q * u, bound)
