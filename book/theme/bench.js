@@ -22,8 +22,10 @@ const live = fields => `
   </svg>
   <svg class="bench-forces" role="img" aria-label="Contact force over penetration"></svg>
 </div>
+<div class="bench-buttons bench-fit"><button type="button" data-step="fit">Fit the axes</button></div>
 <div class="bench-key">
   ${key('<path class="bench-spring" d="M0 3L28 11"/>', "equilibrium, <i>c p</i> + <i>N</i> = <i>R</i>")}
+  ${key('<path class="bench-spring bench-former" d="M0 3L28 11"/>', "before the last change")}
   ${key('<path class="bench-plane bench-corner" d="M0 12H14V0"/>', "contact")}
   ${key('<path class="bench-iterate" stroke-dasharray="7 4" d="M0 12L28 2"/>', "<i>N</i> = <i>λ<sub>k</sub></i> + <i>ε p</i>")}
   ${key('<path class="bench-iterate bench-thin" d="M4 13L20 7H4"/><circle class="bench-dot" cx="20" cy="7" r="3"/>', "the steps")}
@@ -118,7 +120,7 @@ const lengths = ({ values, rows }, last = [0, 0]) => {
 };
 
 const drawSystem = (svg, { values, rows }, [least, most], question) => {
-  const width = svg.clientWidth, height = svg.clientHeight, middle = width / 2 - 10;
+  const width = svg.clientWidth, height = svg.clientHeight, middle = Math.min(width / 2 - 10, width - 90);
   const y = length => 24 + (length - least) / (most - least) * (height - 48), plane = y(values.H);
   const hatch = (at, by) => Array.from({ length: Math.floor((width - 20) / 10) }, (_, i) => `M${14 + 10 * i} ${at}l-6 ${by}`).join("");
   const parts = [
@@ -142,9 +144,9 @@ const drawSystem = (svg, { values, rows }, [least, most], question) => {
     // N = λ + ε p, the force on the mass, relative to R.
     const scale = 40 / Math.max(Math.abs(now.next), Math.abs(real["system::reaction"](values))), force = now.next * scale;
     if (Number.isFinite(force) && Math.abs(force) > 1) {
-      const [from, tip] = [end + 8 + Math.max(force, 0), end + 8 + Math.max(-force, 0)], at = middle + 34, head = force > 0 ? 6 : -6;
+      const [from, tip] = [end + 8 + Math.max(force, 0), end + 8 + Math.max(-force, 0)], at = middle - 28, head = force > 0 ? 6 : -6;
       parts.push(path([[at, from], [at, tip]], { class: "bench-force" }), path([[at - 4, tip + head], [at, tip], [at + 4, tip + head]], { class: "bench-force" }));
-      parts.push(label(at + 7, (from + tip) / 2 + 4, "N", { class: "bench-italic" }));
+      parts.push(label(at - 5, (from + tip) / 2 + 4, "N", { class: "bench-italic bench-end" }));
     }
     // The gap, from the free end of the spring to the plane.
     if (Math.abs(plane - y(values.l)) > 14) {
@@ -174,6 +176,15 @@ const forceBox = ({ values, rows }) => {
   return [[left, low], [right, high]];
 };
 
+// Whether the solution and the steps are in a box.
+const shows = ([[left, low], [right, high]], { values, rows }) => {
+  const corners = [[0, 0], [0, real["system::reaction"](values)], ...rows.map(({ p, next }) => [p, next])];
+  return corners.every(([p, n]) => left <= p && p <= right && low <= n && n <= high);
+};
+
+// Whether two lines of equilibrium differ.
+const changed = (before, now) => ["c", "m", "g", "l", "H"].some(name => before[name] !== now[name]);
+
 // The smallest box that contains two.
 const joined = ([a, b], [c, d]) => [a.map((x, i) => Math.min(x, c[i])), b.map((x, i) => Math.max(x, d[i]))];
 
@@ -185,7 +196,14 @@ const ticks = (from, to, count) => {
   return numbers;
 };
 
-const drawForces = (svg, { values, rows }, run, box) => {
+// The line of equilibrium at two penetrations, for the values of a question.
+const equilibrium = (values, far) => {
+  const held = u => [real["contact::penetration"]({ ...values, u }), real["augmented::contact_force"]({ ...values, u })];
+  const gap = real["system::gap"](values);
+  return [held(gap), held(gap + far)];
+};
+
+const drawForces = (svg, { values, rows }, run, box, former = values) => {
   const width = svg.clientWidth, height = svg.clientHeight, one = run.question.plane === "one";
   const gap = real["system::gap"](values), reaction = real["system::reaction"](values);
   const update = real["augmented::update"];
@@ -196,7 +214,6 @@ const drawForces = (svg, { values, rows }, run, box) => {
   const line = (a, b, attributes, within = box) => path(clipped(a, b, within).map(at), attributes);
   const span = right - left, far = gap + span;
   const [x0, y0] = at([0, 0]), [, y1] = at([0, reaction]), force = `R = ${brief(exactly(reaction))} N`;
-  const held = u => [p(u), real["augmented::contact_force"]({ ...values, u })];
   const text = x => brief(exactly(x)), axes = [];
   for (const x of ticks(left, right, Math.max(2, Math.floor(width / 90)))) {
     const [at_x] = at([x, 0]);
@@ -212,11 +229,14 @@ const drawForces = (svg, { values, rows }, run, box) => {
     ...axes,
     line([0, 0], [span, 0], { class: "bench-faint" }),
     line([0, 0], [0, 1], { class: "bench-faint" }),
-    label(width - 2, y0 - 8, "p in metres", { class: "bench-tick bench-end" }), label(x0 + 8, 9, "N in newtons", { class: "bench-tick" }),
-    line(held(gap), held(far), { class: "bench-spring" }),
+    // Titles stand inside the drawing, on different sides of an axis at its edge.
+    label(width - 2, y0 < 40 ? y0 + 18 : y0 - 8, "p in metres", { class: "bench-tick bench-end" }),
+    x0 > width - 90 ? label(x0 - 8, 9, "N in newtons", { class: "bench-tick bench-end" }) : label(x0 + 8, 9, "N in newtons", { class: "bench-tick" }),
+    ...(changed(former, values) ? [line(...equilibrium(former, span), { class: "bench-spring bench-former" })] : []),
+    line(...equilibrium(values, span), { class: "bench-spring" }),
     path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane bench-corner" }),
     // Labels stand clear of the falling line.
-    reaction < 0 ? label(x0 - 6, Math.min(y1 + 14, height - 24), force, { class: "bench-end" }) : label(x0 + 8, y1 - 4, force),
+    reaction < 0 && x0 > 8 * force.length ? label(x0 - 6, Math.min(y1 + 14, height - 24), force, { class: "bench-end" }) : label(x0 + 8, Math.max(y1 - 4, 24), force),
   ];
   const now = rows.at(-1);
   if (now) {
@@ -289,7 +309,7 @@ const open = root => {
   root.insertAdjacentHTML("beforeend", `<div class="bench-live">${live(fields)}</div>`);
   root.classList.add("live");
   const find = selector => root.querySelector(selector);
-  let question = small ? { ...EXAMPLE, k: Number(root.dataset.k) } : asked(location.search), result, view, domain, box, length, held = false, width;
+  let question = small ? { ...EXAMPLE, k: Number(root.dataset.k) } : asked(location.search), result, view, domain, box, former, settled, length, held = false, width;
 
   const fill = () => {
     for (const key of fields) {
@@ -302,12 +322,13 @@ const open = root => {
   const paint = () => {
     if (!result) return;
     view = seen(result);
-    // While the pointer is down or the keyboard moves the plane the axes only grow, to contain the solution.
-    domain = lengths(view, held ? domain : undefined);
-    box = held && box ? joined(box, forceBox(view)) : forceBox(view);
+    // The axes stay until the solution leaves them; while the pointer is down they only grow.
+    domain = lengths(view, domain);
+    if (!box || !shows(box, view)) box = held && box ? joined(box, forceBox(view)) : forceBox(view);
+    settled ??= view.values;
     if (!domain.every(Number.isFinite)) return;
     length = drawSystem(find(".bench-system"), view, domain, question);
-    drawForces(find(".bench-forces"), view, result, box);
+    drawForces(find(".bench-forces"), view, result, box, changed(settled, view.values) ? settled : former);
     drawDecay(find(".bench-decay"), view, result);
   };
   // Prevents line breaks before a unit and in a sum.
@@ -340,7 +361,9 @@ const open = root => {
     find(".bench-more").textContent = rows.length > SHOWN ? `The last ${SHOWN} of ${rows.length} steps.` : "";
     paint();
   };
+  // Ends a change: the line before it stays as the former one.
   const keep = () => {
+    if (view && changed(settled, view.values)) [former, settled] = [settled, view.values];
     if (small) return;
     try { history.replaceState(null, "", `${location.pathname}${address(question)}#bench`); } catch { /* the address may be fixed */ }
   };
@@ -359,8 +382,10 @@ const open = root => {
   root.addEventListener("click", ({ target }) => {
     const { step } = target.dataset;
     if (!step) return;
+    if (["fit", "reset"].includes(step)) domain = box = former = settled = undefined;
     if (step === "whole") change({}, true);
-    else if (step === "reset") change(EXAMPLE);
+    else if (step === "fit") change({});
+    else if (step === "reset") change(small ? { ...EXAMPLE, k: question.k } : EXAMPLE);
     else change({ k: step === "start" ? 0 : Math.max(0, (result?.rows.length ?? 1) - 1 + Number(step)) });
     keep();
   });
@@ -383,13 +408,8 @@ const open = root => {
     }[event.key];
     if (to === undefined) return;
     event.preventDefault();
-    held = true;
     move(to);
     keep();
-  });
-  find("[role=slider]").addEventListener("blur", () => {
-    held = dragged;
-    paint();
   });
   const system = find(".bench-system");
   const drag = event => move(length(event.clientY - system.getBoundingClientRect().top));
@@ -401,12 +421,15 @@ const open = root => {
     dragged = held = true;
   });
   system.addEventListener("pointermove", event => dragged && drag(event));
+  // A finger on the plane moves it, and elsewhere scrolls the page; `touch-action` has no effect inside an SVG.
+  system.addEventListener("touchstart", event => {
+    if (event.target.closest("[role=slider]")) event.preventDefault();
+  }, { passive: false });
   root.addEventListener("pointerdown", ({ target }) => { if (target.dataset.slide) held = true; });
   for (const end of ["pointerup", "pointercancel"]) {
     addEventListener(end, () => {
       if (!held) return;
       dragged = held = false;
-      paint();
       keep();
     });
   }
@@ -422,6 +445,7 @@ const open = root => {
   // Links on this page that change the settings do not reload the page.
   const again = () => {
     question = asked(location.search);
+    domain = box = former = settled = undefined;
     show();
   };
   addEventListener("popstate", again);

@@ -204,7 +204,7 @@ pub fn block() -> Figure {
     }
     let [last, middle] = [rows.len() - 1, rows.len() / 2];
     plot.text("iterate", (rows[middle][0], rows[middle][1]), (-14.0, 16.0), End, "|r_k|");
-    plot.text("", (rows[middle][0], rows[middle][2]), (4.0, -10.0), Start, "|r_0| / (1 + ε s_min)^{k}");
+    plot.text("", (rows[middle][0], rows[middle][2]), (4.0, -10.0), Start, "|r_0| / (1 + ε s_{min})^{k}");
     let description = format!(
         "Residuals on a logarithmic axis against the number k of augmentations. They fall from {:e} mm to {:e} mm at \
          k = {}, faster than the bound, which falls to {:e} mm.",
