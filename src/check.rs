@@ -128,6 +128,8 @@ pub struct Report {
     /// Conditions each of which separates the wrong answers from the right ones. Empty if an explanation of all
     /// answers is found.
     pub conditions: Vec<Condition>,
+    /// Number of right answers that the diagnosed mistakes would also give, which the conditions disregard.
+    pub disregarded: usize,
     /// The largest error of u in m, of N in N, and of their equilibrium in N: each if it does not grow with the systems,
     /// and nothing else explains the errors.
     pub absolute_bounds: [Option<Exact>; 3],
@@ -305,7 +307,9 @@ impl Report {
         }
         let mut causes = search.of_wrong(&wrong);
         // Answers that the mistake would also give distinguish nothing.
+        let before = right.len();
         right.retain(|answer| !causes.iter().any(|cause| search.may_cause(cause, answer)));
+        self.disregarded = before - right.len();
         self.conditions = Condition::separating(&wrong, &right);
         if self.conditions.is_empty() {
             // A wrong decision needs no condition.

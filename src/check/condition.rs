@@ -110,7 +110,7 @@ crate::number::serialize_as_displayed!(Quantity);
 pub struct Condition {
     /// The state of all systems with wrong answers, if the condition concerns this state alone.
     pub state: Option<State>,
-    /// The threshold; `None` if all answers in the state are wrong.
+    /// The threshold; `None` if all answers in the state are wrong, or the state is grazing.
     pub threshold: Option<Threshold>,
 }
 
@@ -137,6 +137,12 @@ pub(super) fn combinations(chosen: usize, of: usize) -> usize {
 impl Condition {
     /// Returns the conditions that separate wrong answers from right ones, those with the widest gap first.
     pub(super) fn separating(wrong: &[&Observation], right: &[&Observation]) -> Vec<Self> {
+        // Floats may miss R = 0, so not all of these answers have to be wrong.
+        let is_grazing = |answer: &&Observation| answer.assessment().exact.state == State::Grazing;
+        let is_certain = combinations(wrong.len(), wrong.len() + right.len()) == MIN_COMBINATIONS;
+        if is_certain && wrong.iter().all(is_grazing) {
+            return vec![Condition { state: Some(State::Grazing), threshold: None }];
+        }
         let found = Threshold::separating(wrong, right);
         if !found.is_empty() {
             return found
@@ -151,7 +157,7 @@ impl Condition {
         };
         let state = Some(first);
         let alike: Vec<_> = right.iter().copied().filter(|answer| answer.state == state).collect();
-        if alike.is_empty() && combinations(wrong.len(), wrong.len() + right.len()) == MIN_COMBINATIONS {
+        if alike.is_empty() && is_certain {
             return vec![Condition { state, threshold: None }];
         }
         let found = Threshold::separating(wrong, &alike).into_iter();
@@ -159,10 +165,23 @@ impl Condition {
     }
 }
 
+/// Smallest ratio of the least error of a wrong answer to the largest one of a right answer at which the error jumps.
+const MIN_JUMP: i32 = 10;
+
+/// Returns `true` if errors grow from those of right answers to those of wrong ones without a jump, so that the tolerance
+/// alone makes the border.
+fn is_continuous(wrong: &[&Observation], right: &[&Observation]) -> bool {
+    let least = wrong.iter().map(|answer| answer.relative_error()).min().flatten();
+    let within = right.iter().filter(|answer| !answer.is_right());
+    let most = within.filter_map(|answer| answer.relative_error()).max();
+    least.zip(most).is_some_and(|(least, most)| least < Exact::from(MIN_JUMP) * most)
+}
+
 impl Threshold {
     /// Returns the thresholds that separate wrong answers from right ones, those with the widest gap first.
     fn separating(wrong: &[&Observation], right: &[&Observation]) -> Vec<Self> {
-        if combinations(wrong.len(), wrong.len() + right.len()) < MIN_COMBINATIONS {
+        let is_certain = combinations(wrong.len(), wrong.len() + right.len()) == MIN_COMBINATIONS;
+        if !is_certain || is_continuous(wrong, right) {
             return Vec::new();
         }
         let found = Quantity::ALL.iter().filter_map(|quantity| Threshold::of(*quantity, wrong, right));

@@ -84,6 +84,12 @@ impl<'a> Observation<'a> {
         self.numbers()[index].as_ref().map(|number| (number - self.exact(index)).abs())
     }
 
+    /// Returns the larger error of u and N relative to their scales; `None` without numbers.
+    pub fn relative_error(&self) -> Option<Exact> {
+        let [u, n] = [0, 1].map(|i| Some(self.absolute_error(i)? / &self.scales[i]));
+        Some(u?.max(n?))
+    }
+
     /// Returns the penalty that the solver reported, or that of the problem.
     pub fn reported_penalty(&self) -> Option<Exact> {
         self.answer.used.penalty.clone().flatten().or_else(|| self.problem.penalty.clone())
@@ -120,7 +126,9 @@ impl<'a> Observation<'a> {
     ) -> Agreement {
         let number = match (self.numbers()[i], value(formula, &self.problem.system, constants)) {
             (Some(number), Some(x)) if (number - &x).abs() <= tolerance * (&self.scales[i] + x.abs()) => {
-                return Agreement::Clear;
+                // A value that is small relative to its system agrees with any other small number.
+                let is_same = x.is_zero() || (number - &x).abs() * Exact::from(100) <= x.abs();
+                return if is_same { Agreement::Clear } else { Agreement::Possible };
             }
             (Some(number), Some(_)) => number,
             // Any program without a number gives the same answer.
@@ -133,8 +141,8 @@ impl<'a> Observation<'a> {
         let Some(ball) = ball.filter(|ball| ball.is_finite() && ball.contains(number)) else {
             return Agreement::No;
         };
-        // Rounding errors that are not small relative to the error would explain other errors as well.
-        let error = (number - self.exact(i)).abs();
+        // Rounding errors that are not small relative to the error and the number would explain others as well.
+        let error = (number - self.exact(i)).abs().min(number.abs());
         if is_within(&ball, &(error / Exact::from(100))) { Agreement::Clear } else { Agreement::Possible }
     }
 

@@ -21,6 +21,30 @@ const GRADES: std::ops::Range<i32> = -9..-1;
 const E24: [i32; 24] =
     [10, 11, 12, 13, 15, 16, 18, 20, 22, 24, 27, 30, 33, 36, 39, 43, 47, 51, 56, 62, 68, 75, 82, 91];
 
+/// The signs of g, H, l and H − l with the state, 1 in contact, in all combinations that exist; and two with l = 0.
+const SIGNS: [[i32; 5]; 20] = [
+    [1, 1, 1, 1, 1],
+    [-1, 1, 1, 1, 0],
+    [1, 1, 1, -1, 1],
+    [-1, 1, 1, -1, 1],
+    [1, 1, 1, 1, 0],
+    [-1, 1, 1, -1, 0],
+    [1, 1, -1, 1, 1],
+    [-1, 1, -1, 1, 0],
+    [1, 1, -1, 1, 0],
+    [-1, -1, 1, -1, 1],
+    [1, -1, 1, -1, 1],
+    [-1, -1, 1, -1, 0],
+    [1, -1, -1, 1, 1],
+    [-1, -1, -1, 1, 0],
+    [1, -1, -1, 1, 0],
+    [-1, -1, -1, -1, 1],
+    [1, -1, -1, -1, 1],
+    [-1, -1, -1, -1, 0],
+    [1, -1, 0, -1, 1],
+    [-1, 1, 0, 1, 0],
+];
+
 /// Family of test systems.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Display, EnumString, IntoStaticStr, VariantArray,
@@ -45,14 +69,16 @@ pub enum Family {
     Soft,
     /// |l| and |H| of kilometres, and gaps of at most a metre.
     Far,
-    /// c, m, l and the gap from 10⁶ to 10¹⁴ SI units.
+    /// c, m, l and the gap from 10⁶ to 10¹⁴ SI units. There are twice as many as in another family, so that three or
+    /// more answers show a border.
     Huge,
-    /// c, m, l and the gap from 10⁻¹⁴ to 10⁻⁶ SI units.
+    /// c, m, l and the gap from 10⁻¹⁴ to 10⁻⁶ SI units, also twice as many.
     Tiny,
     /// |R| from 10⁻⁹ to 10⁻¹ of |m g| + |c (H − l)|, on either side, where an internal
     /// tolerance of the solver decides. Each decade has as many systems as another family.
     Graded,
-    /// H < 0, l of any sign, u < −|l|, and g of ±9.81 or ±9.80665 m/s².
+    /// Every combination of the signs of g, H − l, H and l with a state in turn, also l = 0; g is ±9.81 or
+    /// ±9.80665 m/s². There are four times as many as in another family.
     Signed,
     /// A system of [`Family::Contact`] with one parameter larger by a thousandth, so that an answer to another
     /// request is wrong. There are three times as many as in another family.
@@ -67,7 +93,9 @@ impl Family {
     fn multiplicity(self) -> u64 {
         match self {
             Family::Graded => GRADES.len() as u64,
+            Family::Huge | Family::Tiny => 2,
             Family::Neighbour => 3,
+            Family::Signed => 4,
             _ => 1,
         }
     }
@@ -288,20 +316,24 @@ impl Sampler {
         }
     }
 
-    /// The plane is above the support, and the mass mostly falls upwards.
     fn signed(&mut self) -> SpringMass<Exact> {
-        let (m, h) = (self.decades(-1, 0), -self.decades(-1, 0));
-        let l = match self.number % 3 {
-            0 => Exact::zero(),
-            2 => -self.decades(-3, -2),
-            _ => self.decades(-1, 0),
+        let [g, h, l, gap, touches] = SIGNS[(self.number - 1) as usize % SIGNS.len()].map(Exact::from);
+        let (m, size) = (self.decades(-1, 0), self.decades(-1, 0));
+        let signs_are_equal = h == l;
+        // Of two lengths of one sign the difference may exceed the length at the support alone.
+        let part = if signs_are_equal && h != gap { self.sixteenths(1, 14) } else { self.sixteenths(1, 64) };
+        let l = l * size.clone();
+        let h = if signs_are_equal {
+            &l + gap.clone() * short(&(&size * part), 3)
+        } else {
+            h * self.decades(-1, 0)
         };
-        let g = if self.number % 2 == 1 { decimal(981, -2) } else { decimal(980_665, -5) };
-        // The gap relative to the free deflection is the reciprocal of this.
-        let part = if self.number % 2 == 1 { self.beyond() } else { self.inside() };
-        let c = short(&(&m * &g / (&l - &h) * part), 3);
-        let g = if self.number.is_multiple_of(5) { g } else { -g };
-        SpringMass { c, m, g, l, h }
+        let weight = if self.number % 2 == 1 { decimal(981, -2) } else { decimal(980_665, -5) };
+        // Where weight and gap have one sign, the ratio of c (H − l) and m g decides the state.
+        let is_smaller = (g == Exact::one()) == (touches == Exact::one());
+        let part = if is_smaller { self.inside() } else { self.beyond() };
+        let c = short(&(&m * &weight / (&h - &l).abs() * part), 3);
+        SpringMass { c, m, g: g * weight, l, h }
     }
 
     /// Each five of these have one base, of which they change one parameter each.
@@ -314,8 +346,13 @@ impl Sampler {
         system
     }
 
-    /// m g = c Δ, where m is a divisor, so that g has few digits.
+    /// m g = c Δ, where m is a divisor, so that g has few digits. Floats represent every other system exactly.
     fn grazing(&mut self) -> SpringMass<Exact> {
+        if self.family == Family::Grazing && self.number % 2 == 1 {
+            let (c, gap, l) =
+                (Exact::from(self.between(10, 999)), self.sixteenths(1, 15), self.sixteenths(1, 99));
+            return SpringMass { g: &c * &gap, c, m: Exact::one(), h: &l + gap, l };
+        }
         let (c, gap, l) = (self.decades(1, 3), self.decades(-3, -1), self.decades(-1, 0));
         let twos = Exact::power_of_two(self.between(-2, 5));
         let m = Exact::from(1 + 4 * self.between(0, 1)) * twos;

@@ -311,8 +311,18 @@ impl Program {
         let bounded = -(-&u).min(&l.abs());
         let deflections =
             [-&u, u.abs(), u.positive_part(), zero.clone(), &l + &u, p.clone(), -p, h - l, bounded];
-        let forces =
-            [-&n, n.abs(), zero.clone(), system::weight(system), structure::spring_force(system, &u), sum];
+        let weight = system::weight(system);
+        let [by_gravity, by_weight] = [&n / &system.g, &n / &weight];
+        let forces = [
+            -&n,
+            n.abs(),
+            zero.clone(),
+            weight,
+            structure::spring_force(system, &u),
+            sum,
+            by_gravity,
+            by_weight,
+        ];
         let forces = forces.into_iter().chain(signs(&force)).chain(signs(&system::reaction(system)));
         let mut returned = Vec::new();
         for u in deflections {
@@ -439,7 +449,15 @@ pub(super) fn edits(by_penalty: bool) -> Vec<Mistake> {
     let edited = programs.iter().flat_map(|program| program.edited(by_penalty));
     let of_one_use = programs.iter().flat_map(|program| program.inlined().with_one_operation());
     let edited = edited.chain(of_one_use).filter(|mistake| !mistake.results.divide_by_zero());
-    undecided(by_penalty).into_iter().chain(rigid).chain(edited).collect()
+    undecided(by_penalty).into_iter().chain(decided_by_gap(by_penalty)).chain(rigid).chain(edited).collect()
+}
+
+/// Returns the programs whose lengths decide the state.
+fn decided_by_gap(by_penalty: bool) -> [Mistake; 2] {
+    let (program, gap) = (reference(by_penalty), Tree::symbol("gap"));
+    let condition = program.condition().expect("a program with branches");
+    let [below, above] = [program.with(condition, -&gap), program.with(condition, gap)];
+    [Mistake::new("the plane acts if H > l", above), Mistake::new("the plane acts if H < l", below)]
 }
 
 /// Returns the mistakes that a program may make in some answers only: in its decision or its output.
@@ -477,6 +495,11 @@ pub(super) fn numbers(by_penalty: bool) -> Vec<Mistake> {
             all.push(Mistake::of_parameter(name, first.using(&[(x, used)])));
         }
     }
+    let direction = [("g", k * &system.g / system.g.abs())];
+    all.push(Mistake::of_parameter(
+        "g is always {k} or the negative of it".to_string(),
+        first.using(&direction),
+    ));
     let lengths = [("l", k * &system.l), ("H", k * &system.h)];
     all.push(Mistake::new("l and H are {k} times the right values", first.using(&lengths)));
     let [u, n] = returned();
@@ -487,7 +510,14 @@ pub(super) fn numbers(by_penalty: bool) -> Vec<Mistake> {
     ] {
         all.push(Mistake::new(name, Program { returned: [u, n], ..first.clone() }));
     }
-    if !by_penalty {
+    if by_penalty {
+        let eps = &symbols().eps;
+        let u = augmented::deflection(system, eps, k);
+        let both = [u.clone(), augmented::update(system, eps, k, &u)];
+        let apart = [structure::deflection(system), Tree::from(0)];
+        let program = Program::with_branches(&[], system::reaction(system), both, apart);
+        all.push(Mistake::new("it is one augmentation from the multiplier {k} N", program));
+    } else {
         all.extend(unrequested_penalties(system, k));
         all.extend(augmentations(system, k));
     }

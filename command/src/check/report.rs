@@ -185,17 +185,26 @@ fn conditions(report: &Report) -> Option<String> {
     let of = match first.state {
         Some(State::Contact) => " in contact",
         Some(State::Separated) => " without contact",
-        Some(State::Grazing) | None => "",
+        Some(State::Grazing) => " with R = 0",
+        None => "",
     };
     let clauses =
         report.conditions.iter().filter_map(|condition| condition.threshold.as_ref()).take(MAX_EXAMPLES);
     let clauses: Vec<_> = clauses.map(clause).collect();
     let of = match clauses[..] {
+        [] if first.state == Some(State::Grazing) => format!("systems{of}"),
         [] => format!("all {} systems{of}", report.summary().wrong),
         _ => format!("systems{of} with {}", clauses.join(", or ")),
     };
     let others = if clauses.len() > 1 { " More cases may tell which of these matters." } else { "" };
-    Some(format!("The {} wrong answers are to {of}.{others}", report.summary().wrong))
+    let disregarded = match report.disregarded {
+        0 => String::new(),
+        n => format!(
+            ", where {} that the mistake does not change are disregarded",
+            counted(n as u64, "right answer", "right answers")
+        ),
+    };
+    Some(format!("The {} wrong answers are to {of}{disregarded}.{others}", report.summary().wrong))
 }
 
 /// Says that wrong answers are explained by nothing, so that nobody waits for a diagnosis.

@@ -94,7 +94,20 @@ type Change = fn(&Problem, Exact, Exact) -> [Exact; 2];
 
 #[test]
 fn each_kind_of_mistake_has_its_name() {
-    let table: [(&str, Change); 17] = [
+    let table: [(&str, Change); 21] = [
+        ("N / g is returned as N", |problem, u, n| [u, n / &problem.system.g]),
+        ("N / (m g) is returned as N", |problem, u, n| [u, n / system::weight(&problem.system)]),
+        ("the plane acts if H > l", |problem, _, _| {
+            let system = &problem.system;
+            let free = [structure::deflection(system), Exact::zero()];
+            if system.h > system.l { [system::gap(system), system::reaction(system)] } else { free }
+        }),
+        ("g is always 9.81 or the negative of it", |problem, _, _| {
+            let g = number(if problem.system.g > Exact::zero() { "9.81" } else { "-9.81" });
+            let exact =
+                Problem { system: SpringMass { g, ..problem.system.clone() }, ..problem.clone() }.solution();
+            [exact.deflection, exact.contact_force]
+        }),
         ("u is 1000 times the right value", |_, u, n| [u * number("1000"), n]),
         ("N is 0.001 times the right value", |_, u, n| [u, n * number("0.001")]),
         ("u and N are 1.5 times the right value", |_, u, n| [u * number("1.5"), n * number("1.5")]),
@@ -192,6 +205,11 @@ fn a_state_or_a_parameter_separates_wrong_answers() {
     assert_eq!(names(&heavy), ["N is 1.01 times the right value"]);
     let found: Vec<_> = heavy.conditions.iter().filter_map(|found| found.threshold.as_ref()).collect();
     assert!(found.iter().any(|found| found.quantity == Quantity::Mass && !found.is_below()), "{found:?}");
+    let huge =
+        changed(|problem, u, n| [u, if problem.system.m > number("1000") { n * number("1.001") } else { n }]);
+    let found: Vec<_> = huge.conditions.iter().filter_map(|found| found.threshold.as_ref()).collect();
+    assert!(found.iter().any(|found| found.quantity == Quantity::Mass && !found.is_below()), "{found:?}");
+    assert!(huge.disregarded > 0, "without contact a factor of N changes nothing");
     // No quantity separates some answers: a decision is still named.
     let wrong =
         |problem: &Problem| State::of(&problem.system) == Ok(State::Separated) && problem.id.ends_with('2');
@@ -206,6 +224,25 @@ fn a_state_or_a_parameter_separates_wrong_answers() {
 }
 
 /// The threshold lies between the two systems next to it, on either side, and not in one of them.
+/// Floats represent some of these systems exactly, and others are near R = 0 for them.
+#[test]
+fn an_answer_without_force_is_located() {
+    let report = run(&default_problems(), |problem| {
+        let floats = problem.system.try_map(Exact::to_f64).unwrap();
+        if system::reaction(&floats) == 0.0 { Answer::default() } else { right(problem) }
+    });
+    assert_eq!(report.conditions, [Condition { state: Some(State::Grazing), threshold: None }]);
+}
+
+/// The error of N by the factor 1 + 0.001 H grows from below the tolerance to above it.
+#[test]
+fn an_error_that_grows_continuously_has_no_border() {
+    let growing = |problem: &Problem, u: Exact, n: Exact| {
+        [u, n * (Exact::from(1) + &problem.system.h * number("0.001"))]
+    };
+    assert_eq!(changed(growing).conditions, []);
+}
+
 #[test]
 fn a_threshold_is_that_of_the_nearest_systems() {
     let threshold_of_mass = |problems: &[Problem], is_wrong: &dyn Fn(&Problem) -> bool| {
