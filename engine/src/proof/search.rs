@@ -38,12 +38,12 @@ use super::check::{
     self, Atom, Leaf, Node, Polynomial, Premise, Problem, Proof, Reader, Refusal, Rise, Sign, State, check,
     parts_of_rise,
 };
-use super::effort::{self, MAX_EFFORT};
+use super::effort::MAX_EFFORT;
 use crate::formula::statement::{Proposition, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
 use crate::number::tree::Op;
-use algebra::{Poly, Ratio};
+use algebra::{Poly, Ratio, UNKNOWN};
 use dictionary::integral;
 use knowledge::{AssumedFact, Knowledge};
 use source::Search;
@@ -119,10 +119,9 @@ const MAX_RISES: usize = 4;
 /// ```
 pub fn prove(statement: &Statement) -> Result<Proof, ProofError> {
     check::check_premises(statement)?;
-    let goals: Vec<_> = bounded(|| {
-        let goals = statement.goals().iter();
-        goals.map(|goal| solve(&goal.proposition, statement.hypotheses_for(goal.role))).collect()
-    })?;
+    let goals = statement.goals().iter();
+    let goals = goals.map(|goal| solve(&goal.proposition, statement.hypotheses_for(goal.role)));
+    let goals = goals.collect::<Result<Vec<_>, _>>()?;
     check(statement, &goals).map_err(|_| ProofError::NotExpressed("the checker refuses it"))
 }
 
@@ -143,17 +142,16 @@ pub(in crate::proof) fn prove_proposition(
     if !roundings.is_empty() && proposition.variable().is_some() {
         return Err(Premise::Discontinuous.into());
     }
-    bounded(|| solve(proposition, hypotheses))
-}
-
-/// Limits the effort of a search.
-fn bounded<T>(search: impl FnOnce() -> Result<T, ProofError>) -> Result<T, ProofError> {
-    effort::bounded(search).unwrap_or(Err(ProofError::TooLarge(MAX_EFFORT)))
+    solve(proposition, hypotheses)
 }
 
 fn solve(proposition: &Proposition, hypotheses: Vec<&Hypothesis>) -> Result<Node, ProofError> {
     let problem = Problem::new(proposition, hypotheses).map_err(Failure::from)?;
-    Ok(Attempt { problem: &problem }.certify(&[])?)
+    let found = Attempt { problem: &problem }.certify(&[]).map_err(ProofError::from);
+    found.map_err(|reason| {
+        let is_unknown = reason.quantity().is_some_and(|of| of.value.variables().contains(&UNKNOWN));
+        if problem.effort.is_exceeded() || is_unknown { ProofError::TooLarge(MAX_EFFORT) } else { reason }
+    })
 }
 
 /// A decision on the way to a leaf, before the hypothesis at a place in their order.

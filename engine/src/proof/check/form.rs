@@ -4,6 +4,7 @@ use super::polynomial::{MAX_VARIABLES, Polynomial, Powers};
 use super::sign::Sign;
 use super::state::State;
 use super::{Certificate, Checked, Known, MAX_NESTING, Refusal};
+use crate::proof::effort::Effort;
 
 /// The knowledge about a variable of a form.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +38,7 @@ impl State<'_> {
     pub fn difference(&self, of: &Polynomial, certificate: &Certificate) -> Checked<Polynomial> {
         let (_, values) = self.quantities(of, certificate, MAX_NESTING)?;
         let [left, right] = self.sides(of, certificate, &values)?;
-        left.plus_multiple(-1, &right)
+        left.plus_multiple(-1, &right, &self.facts.effort)
     }
 
     /// Returns what is known of the variables of a certificate, and the values of its quantities.
@@ -74,8 +75,9 @@ impl State<'_> {
         values: &[Polynomial],
     ) -> Checked<[Polynomial; 2]> {
         let first = self.problem.table.atoms().len();
-        let left = expand(&certificate.left, first, values)?.times(of)?;
-        Ok([left, expand(&certificate.right, first, values)?])
+        let effort = &self.facts.effort;
+        let left = expand(&certificate.left, first, values, effort)?.times(of, effort)?;
+        Ok([left, expand(&certificate.right, first, values, effort)?])
     }
 
     fn kind(&self, x: usize) -> Kind {
@@ -116,17 +118,18 @@ impl State<'_> {
             return Err(Refusal::Exponents);
         }
         let product = |all: &[usize]| {
-            all.iter()
-                .try_fold(Polynomial::constant(1), |product, x| product.times(&Polynomial::variable(*x)?))
+            all.iter().try_fold(Polynomial::constant(1), |product, x| {
+                product.times(&Polynomial::variable(*x)?, &self.facts.effort)
+            })
         };
-        product(left)?.plus_multiple(-1, &product(right)?)
+        product(left)?.plus_multiple(-1, &product(right)?, &self.facts.effort)
     }
 }
 
 /// Returns a form as a polynomial of atoms.
-fn expand(form: &Polynomial, first: usize, values: &[Polynomial]) -> Checked<Polynomial> {
+fn expand(form: &Polynomial, first: usize, values: &[Polynomial], effort: &Effort) -> Checked<Polynomial> {
     let mut values = values.iter().enumerate();
-    values.try_fold(form.clone(), |form, (i, value)| form.replace(first + i, value))
+    values.try_fold(form.clone(), |form, (i, value)| form.replace(first + i, value, effort))
 }
 
 /// Returns the sign of a form, term by term.

@@ -1,7 +1,7 @@
 //! Polynomials with integer coefficients, whose arithmetic refuses what it cannot represent.
 
 use super::{Checked, Refusal};
-use crate::proof::effort;
+use crate::proof::effort::Effort;
 
 /// Maximum number of variables of a polynomial: of the atoms of a goal and the quantities of a certificate.
 pub const MAX_VARIABLES: usize = 64;
@@ -80,11 +80,9 @@ impl Polynomial {
     }
 
     /// Returns `self` + `n` `other`.
-    pub fn plus_multiple(&self, n: i128, other: &Self) -> Checked<Self> {
+    pub fn plus_multiple(&self, n: i128, other: &Self, effort: &Effort) -> Checked<Self> {
         let count = self.0.len() + other.0.len();
-        if !effort::spend(count) {
-            return Err(Refusal::TooLarge);
-        }
+        effort.spend(count).ok_or(Refusal::TooLarge)?;
         let (mut sums, mut rest) = (Vec::with_capacity(count), &self.0[..]);
         for (powers, number) in &other.0 {
             let before = rest.iter().take_while(|(first, _)| first < powers).count();
@@ -105,13 +103,20 @@ impl Polynomial {
         Ok(Polynomial(sums))
     }
 
+    /// Returns minus the polynomial.
+    pub fn negated(&self) -> Checked<Self> {
+        let terms = self.0.iter().map(|(powers, n)| Ok((*powers, n.checked_neg().ok_or(Refusal::TooLarge)?)));
+        terms.collect::<Checked<_>>().map(Polynomial)
+    }
+
     /// Returns the product.
-    pub fn times(&self, other: &Self) -> Checked<Self> {
+    pub fn times(&self, other: &Self, effort: &Effort) -> Checked<Self> {
         if other.is_one() {
             return Ok(self.clone());
         }
         let count = self.0.len().checked_mul(other.0.len()).filter(|count| *count <= MAX_TERMS);
-        let count = count.filter(|count| effort::spend(*count)).ok_or(Refusal::TooLarge)?;
+        let count = count.ok_or(Refusal::TooLarge)?;
+        effort.spend(count).ok_or(Refusal::TooLarge)?;
         let mut terms = Vec::with_capacity(count);
         // Few long runs of ascending terms are sorted fast.
         let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
@@ -149,14 +154,14 @@ impl Polynomial {
     }
 
     /// Replaces a variable by a polynomial.
-    pub fn replace(&self, x: usize, by: &Self) -> Checked<Self> {
+    pub fn replace(&self, x: usize, by: &Self, effort: &Effort) -> Checked<Self> {
         let degree = self.degree(x);
         if degree == 0 {
             return Ok(self.clone());
         }
         let mut sum = self.coefficient(x, degree);
         for n in (0..degree).rev() {
-            sum = sum.times(by)?.plus_multiple(1, &self.coefficient(x, n))?;
+            sum = sum.times(by, effort)?.plus_multiple(1, &self.coefficient(x, n), effort)?;
         }
         Ok(sum)
     }

@@ -3,6 +3,7 @@
 use super::polynomial::Polynomial;
 use super::sign::Sign;
 use super::{Checked, Refusal};
+use crate::proof::effort::Effort;
 
 /// A quotient of a polynomial and a product of facts. The product is not multiplied out.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,8 +15,12 @@ pub struct Quotient {
 }
 
 /// The quantities of known sign, in the order in which they became known.
-#[derive(Clone, Debug, Default)]
-pub struct Facts(Vec<(Polynomial, Sign)>);
+#[derive(Clone, Debug)]
+pub struct Facts {
+    all: Vec<(Polynomial, Sign)>,
+    /// The effort that is left for arithmetic.
+    pub effort: Effort,
+}
 
 impl From<Polynomial> for Quotient {
     fn from(num: Polynomial) -> Self {
@@ -31,9 +36,9 @@ impl Quotient {
     }
 
     /// Returns the product.
-    pub fn times(&self, other: &Self) -> Checked<Self> {
+    pub fn times(&self, other: &Self, effort: &Effort) -> Checked<Self> {
         let den = [&self.den[..], &other.den].concat();
-        Ok(Quotient::new(self.num.times(&other.num)?, den))
+        Ok(Quotient::new(self.num.times(&other.num, effort)?, den))
     }
 }
 
@@ -49,25 +54,32 @@ fn without(a: &[usize], b: &[usize]) -> Vec<usize> {
 }
 
 impl Facts {
+    /// Returns no facts.
+    pub fn new(effort: Effort) -> Self {
+        Facts { all: Vec::new(), effort }
+    }
+
     /// Adds a fact and returns its number.
     pub fn add(&mut self, of: Polynomial, sign: Sign) -> usize {
-        self.0.push((of, sign));
-        self.0.len() - 1
+        self.all.push((of, sign));
+        self.all.len() - 1
     }
 
     /// Returns a fact.
     pub fn get(&self, i: usize) -> Checked<&(Polynomial, Sign)> {
-        self.0.get(i).ok_or(Refusal::Unknown)
+        self.all.get(i).ok_or(Refusal::Unknown)
     }
 
     /// Returns all facts in order.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = &(Polynomial, Sign)> + ExactSizeIterator {
-        self.0.iter()
+        self.all.iter()
     }
 
     /// Returns the product of facts.
     pub fn product(&self, facts: &[usize]) -> Checked<Polynomial> {
-        facts.iter().try_fold(Polynomial::constant(1), |product, i| product.times(&self.get(*i)?.0))
+        facts
+            .iter()
+            .try_fold(Polynomial::constant(1), |product, i| product.times(&self.get(*i)?.0, &self.effort))
     }
 
     /// Returns the sign of a product of facts.
@@ -83,13 +95,14 @@ impl Facts {
     ) -> Checked<(Polynomial, Polynomial, Vec<usize>)> {
         let (more, less) = (without(&b.den, &a.den), without(&a.den, &b.den));
         let den = [&a.den[..], &more].concat();
-        Ok((a.num.times(&self.product(&more)?)?, b.num.times(&self.product(&less)?)?, den))
+        let [more, less] = [self.product(&more)?, self.product(&less)?];
+        Ok((a.num.times(&more, &self.effort)?, b.num.times(&less, &self.effort)?, den))
     }
 
     /// Returns a + n b.
     pub fn sum(&self, a: &Quotient, n: i128, b: &Quotient) -> Checked<Quotient> {
         let (a, b, den) = self.with_common_denominator(a, b)?;
-        Ok(Quotient::new(a.plus_multiple(n, &b)?, den))
+        Ok(Quotient::new(a.plus_multiple(n, &b, &self.effort)?, den))
     }
 
     /// Returns `true` if two quotients are equal, as functions of the variables.

@@ -75,7 +75,7 @@ impl<'p> State<'p> {
             Atom::Size(_) => Some(Sign::NonNegative),
             _ => None,
         });
-        let mut facts = Facts::default();
+        let mut facts = Facts::new(problem.effort.clone());
         facts.add(Polynomial::constant(2), Sign::Positive);
         let (assumed, rounded, sizes, exponents, symbols, values) = Default::default();
         State { problem, facts, signs: signs.collect(), assumed, rounded, sizes, exponents, symbols, values }
@@ -185,10 +185,10 @@ impl<'p, S: Source> Reader<'p, S> {
             }
             Add(a, b) => self.sum(a, 1, b)?,
             Sub(a, b) => self.sum(a, -1, b)?,
-            Mul(a, b) => self.value(a)?.times(&self.value(b)?)?,
+            Mul(a, b) => self.value(a)?.times(&self.value(b)?, &self.state.facts.effort)?,
             Div(a, b) => {
                 let (a, inverse) = (self.value(a)?, self.inverse(b)?);
-                a.times(&inverse)?
+                a.times(&inverse, &self.state.facts.effort)?
             }
             Exp(a) => self.exponential(a)?,
             PositivePart(a) => {
@@ -227,15 +227,16 @@ impl<'p, S: Source> Reader<'p, S> {
                 known.size
             }
         };
-        Ok(Polynomial::zero().plus_multiple(-1, &Polynomial::variable(size)?)?.into())
+        Ok(Polynomial::variable(size)?.negated()?.into())
     }
 
     /// Returns the variable of the absolute value of a formula x, and adds the fact x = t |x|.
     fn size_atom(&mut self, x: usize, value: Quotient) -> Checked<usize> {
         let size = self.state.problem.table.variable(Atom::Size(x))?;
-        let product = Polynomial::variable(size)?.times(&self.state.variable(Atom::Factor(x))?)?;
-        let product = product.times(&self.state.facts.product(&value.den)?)?;
-        let fact = self.state.add_fact(value.num.plus_multiple(-1, &product)?, Sign::Zero);
+        let effort = &self.state.facts.effort;
+        let product = Polynomial::variable(size)?.times(&self.state.variable(Atom::Factor(x))?, effort)?;
+        let product = product.times(&self.state.facts.product(&value.den)?, effort)?;
+        let fact = self.state.add_fact(value.num.plus_multiple(-1, &product, effort)?, Sign::Zero);
         self.state.sizes.push(Size { value, size, fact });
         Ok(size)
     }
@@ -277,11 +278,12 @@ impl<'p, S: Source> Reader<'p, S> {
     fn rounded(&mut self, of: usize) -> Checked<Quotient> {
         let value = self.value(of)?;
         let error = self.error(of, &value)?;
-        let largest =
-            self.state.variable(Atom::Own(PRECISION))?.plus_multiple(1, &Polynomial::constant(1))?;
-        let factor = largest.plus_multiple(1, &Polynomial::variable(error)?)?;
+        let effort = &self.state.facts.effort.clone();
+        let precision = self.state.variable(Atom::Own(PRECISION))?;
+        let largest = precision.plus_multiple(1, &Polynomial::constant(1), effort)?;
+        let factor = largest.plus_multiple(1, &Polynomial::variable(error)?, effort)?;
         let den = vec![self.strict(&largest)?];
-        value.times(&Quotient { num: factor, den })
+        value.times(&Quotient { num: factor, den }, effort)
     }
 
     /// Returns the variable of the error of a rounded formula. Values that differ by a power of two have the
@@ -300,7 +302,9 @@ impl<'p, S: Source> Reader<'p, S> {
 
     fn shared_error(&self, value: &Quotient, same: &Same) -> Checked<usize> {
         let known = self.state.rounded.get(same.rounding).ok_or(Refusal::Unknown)?;
-        let scaled = |of: &Quotient, by| Ok(Quotient { num: of.num.times(by)?, ..of.clone() });
+        let scaled = |of: &Quotient, by| {
+            Ok(Quotient { num: of.num.times(by, &self.state.facts.effort)?, ..of.clone() })
+        };
         let is_equal =
             self.state.facts.are_equal(&scaled(value, &same.down)?, &scaled(&known.value, &same.up)?)?;
         let is_power = [&same.up, &same.down].into_iter().all(|of| self.is_power_of_two(of));
@@ -327,7 +331,9 @@ impl<'p, S: Source> Reader<'p, S> {
                 (self.state.facts.sum(&upper, 1, &lower)?, self.state.facts.sum(&upper, -1, &lower)?);
             let half = Quotient { num: Polynomial::constant(1), den: vec![TWO] };
             let t = self.state.variable(Atom::IntervalParameter(i))?.into();
-            let value = self.state.facts.sum(&sum.times(&half)?, 1, &length.times(&half)?.times(&t)?)?;
+            let effort = &self.state.facts.effort;
+            let distance = length.times(&half, effort)?.times(&t, effort)?;
+            let value = self.state.facts.sum(&sum.times(&half, effort)?, 1, &distance)?;
             self.state.symbols.entry(x).or_insert(value);
             self.state.values.clear();
         } else {

@@ -7,6 +7,7 @@ use crate::formula::claim::PRECISION;
 use crate::formula::statement::Proposition;
 use crate::number::tree::{Op, smooth_ops};
 use crate::number::{Dual, Exponential, Tree};
+use crate::proof::effort::Effort;
 use rustc_hash::FxHashMap;
 
 /// A variable of polynomials, and the real number that it stands for.
@@ -60,6 +61,8 @@ pub struct Problem<'a> {
     pub table: Table,
     /// The number of problems of which this one is a part.
     pub nesting: u32,
+    /// The effort that is left for its proof, also for that of its parts.
+    pub effort: Effort,
 }
 
 impl Table {
@@ -191,13 +194,17 @@ impl<'a> Problem<'a> {
         let goal = proposition.trees().into_iter().chain(&derivative);
         let goal = goal.map(|tree| table.add(tree)).collect::<Checked<_>>()?;
         table.add_atoms(&hypotheses)?;
-        Ok(Problem { proposition, hypotheses, values, goal, table, nesting: 0 })
+        Ok(Problem { proposition, hypotheses, values, goal, table, nesting: 0, effort: Effort::default() })
     }
 
     /// Returns the problem as a part of another.
     pub fn within(self, other: &Problem) -> Checked<Self> {
         let nesting = other.nesting + 1;
-        if nesting > MAX_NESTING { Err(Refusal::TooLarge) } else { Ok(Problem { nesting, ..self }) }
+        if nesting > MAX_NESTING {
+            Err(Refusal::TooLarge)
+        } else {
+            Ok(Problem { nesting, effort: other.effort.clone(), ..self })
+        }
     }
 
     /// Returns the symbol that tends to infinity in a limit.

@@ -5,6 +5,7 @@ use crate::formula::claim::{derivative, equal, non_negative, positive, within};
 use crate::formula::statement::Goal;
 use crate::number::tree::Op;
 use crate::number::{Exponential, PositivePart};
+use crate::proof::effort::Effort;
 
 mod forms;
 mod limits;
@@ -75,10 +76,10 @@ impl<'a> Page<'a> {
         match of.into().op() {
             Op::Symbol(name) => Polynomial::variable(self.variable(name)).unwrap(),
             Op::Int(n) => Polynomial::constant((*n).into()),
-            Op::Neg(a) => Polynomial::zero().plus_multiple(-1, &self.poly(a)).unwrap(),
-            Op::Add(a, b) => self.poly(a).plus_multiple(1, &self.poly(b)).unwrap(),
-            Op::Sub(a, b) => self.poly(a).plus_multiple(-1, &self.poly(b)).unwrap(),
-            Op::Mul(a, b) => self.poly(a).times(&self.poly(b)).unwrap(),
+            Op::Neg(a) => self.poly(a).negated().unwrap(),
+            Op::Add(a, b) => self.poly(a).plus_multiple(1, &self.poly(b), &self.0.effort).unwrap(),
+            Op::Sub(a, b) => self.poly(a).plus_multiple(-1, &self.poly(b), &self.0.effort).unwrap(),
+            Op::Mul(a, b) => self.poly(a).times(&self.poly(b), &self.0.effort).unwrap(),
             _ => panic!("not a polynomial"),
         }
     }

@@ -174,14 +174,15 @@ impl fmt::Display for Expr {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::proof::effort::Effort;
 
     #[test]
     fn polynomials_are_sums_of_products() {
         let [a, b] = [0, 1].map(|x| Polynomial::variable(x).unwrap());
-        let square = a.times(&a).unwrap();
+        let square = a.times(&a, &Effort::default()).unwrap();
         let text = |of: &Polynomial| Expr::polynomial(of, |x| Expr::name(["a", "b"][x])).to_string();
-        assert_eq!(text(&b.plus_multiple(-3, &square).unwrap()), "b - 3 * a * a");
-        assert_eq!(text(&Polynomial::zero().plus_multiple(-1, &square).unwrap()), "- (a * a)");
+        assert_eq!(text(&b.plus_multiple(-3, &square, &Effort::default()).unwrap()), "b - 3 * a * a");
+        assert_eq!(text(&square.negated().unwrap()), "- (a * a)");
         assert_eq!(text(&Polynomial::zero()), "0");
     }
 }

@@ -128,7 +128,7 @@ impl<'a> Lines<'a> {
 
     /// Returns the name of a polynomial, with its sign.
     fn name(&self, of: &Polynomial) -> Option<Tree> {
-        let negated = Polynomial::zero().plus_multiple(-1, of).ok()?;
+        let negated = of.negated().ok()?;
         self.named.iter().find_map(|(known, tree)| match known {
             known if known == of => Some(tree.clone()),
             known if *known == negated => Some(-tree),

@@ -35,6 +35,7 @@ pub fn sign(of: &Poly, known: &SignEnv) -> Option<Certificate> {
 ///
 /// Rule 4 is not tried if there are symbols between −1 and 1.
 pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &SignEnv) -> Option<Certificate> {
+    known.spend(of, &Poly::zero())?;
     if let Some(certificate) = by_terms(of, known) {
         return Some(certificate);
     }
@@ -137,6 +138,7 @@ impl FloatPoly {
 }
 
 fn within(of: &Poly, known: &SignEnv, depth: u32) -> Option<Certificate> {
+    known.spend(of, &Poly::zero())?;
     if let Some(certificate) = Certificate::termwise(of, known) {
         return Some(certificate);
     }
@@ -189,6 +191,7 @@ fn by_terms(of: &Poly, known: &SignEnv) -> Option<Certificate> {
 
 /// Returns the sign by rules 1, 2, 5 and 6, the last one applied to at most `symbols` symbols.
 fn bounded(of: &Poly, known: &SignEnv, symbols: u32) -> Option<Certificate> {
+    known.spend(of, &Poly::zero())?;
     by_terms(of, known).or_else(|| by_ends(of, known, symbols))
 }
 
@@ -309,6 +312,7 @@ fn cancelling_multipliers(value: &Ratio, other: &Ratio, symbols: &[usize]) -> Ve
 mod tests {
     use super::*;
     use crate::proof::check::Sign::*;
+    use crate::proof::effort::{Effort, MAX_EFFORT};
 
     /// The symbols, in order.
     const NAMES: [&str; 6] = ["a", "b", "n", "u", "v", "z"];
@@ -323,7 +327,7 @@ mod tests {
 
     /// Returns the signs of these symbols; the variables after the symbols are between −1 and 1.
     fn signs<const N: usize>(known: [(&str, Sign); N]) -> SignEnv {
-        let mut env = SignEnv::new(NAMES.len()..2 * NAMES.len() + 6);
+        let mut env = SignEnv::new(NAMES.len()..2 * NAMES.len() + 6, Effort::default());
         for (name, sign) in known {
             env.set(x(name).variables()[0], Some(sign));
         }
@@ -378,6 +382,17 @@ mod tests {
         for of in [square, n(1) + error(0), -x("n") * x("a"), x("z"), lost, e(x("u")) - x("a")] {
             assert!(!has_both_signs(&of, &known), "{of:?}");
         }
+    }
+
+    #[test]
+    fn no_sign_is_found_beyond_the_effort() {
+        let effort = Effort::default();
+        let known = SignEnv::new([], effort.clone());
+        let square = n(2) * x("u") * x("u") - n(2) * x("u") + n(1);
+        assert!(sign(&square, &known).is_some());
+        effort.spend(MAX_EFFORT);
+        assert!(sign(&square, &known).is_none() && within(&n(1), &known, 1).is_none());
+        assert!(bounded(&n(1), &known, 1).is_none());
     }
 
     #[test]

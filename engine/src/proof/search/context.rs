@@ -1,6 +1,6 @@
 //! The assumptions of a proof and the substitutions that follow from them.
 
-use super::algebra::{FIRST_SLACK, Monomial, Poly, Ratio, VARIABLES};
+use super::algebra::{FIRST_SLACK, Monomial, Poly, Ratio, UNKNOWN};
 use super::assumption::{Assumption, AssumptionUse, Multiple, SignedRatio};
 use super::choice::{self, PivotChoice};
 use super::error::Symbol;
@@ -38,7 +38,7 @@ impl Context {
     pub(in crate::proof) fn new(problem: &Problem) -> Self {
         let (assumptions, symbols, roundings, substitutions, retained) = Default::default();
         let units = (0..FIRST_SLACK).filter(|x| problem.table.is_unit(*x));
-        let (signs, largest) = (SignEnv::new(units), Poly::constant(1));
+        let (signs, largest) = (SignEnv::new(units, problem.effort.clone()), Poly::constant(1));
         let mut context =
             Context { assumptions, signs, symbols, roundings, substitutions, retained, largest };
         for (x, atom) in problem.table.atoms().iter().enumerate() {
@@ -96,14 +96,15 @@ impl Context {
         self.reduce(&self.largest.clone().into())
     }
 
-    /// Replaces every pivot, repeatedly; the result is equal to `value` under the assumptions.
+    /// Replaces every pivot, repeatedly; the result is equal to `value` under the assumptions. Some pivots stay if the
+    /// search exceeds its effort.
     pub(super) fn reduce(&self, value: &Ratio) -> Ratio {
         let mut value = value.clone();
         // Substitutions could reintroduce each other's pivots indefinitely; some are then left in the value.
         for _ in &self.substitutions {
             let mut is_reduced = true;
             for (pivot, by) in &self.substitutions {
-                if value.contains(pivot) {
+                if value.contains(pivot) && self.signs.spend(value.num(), by.num()).is_some() {
                     value = value.replace(pivot, by);
                     is_reduced = false;
                 }
@@ -245,7 +246,7 @@ impl Context {
     }
 
     fn next_slack(&self) -> Option<usize> {
-        (FIRST_SLACK..VARIABLES).find(|x| !self.symbols.contains_key(x))
+        (FIRST_SLACK..UNKNOWN).find(|x| !self.symbols.contains_key(x))
     }
 
     /// Returns the next symbol of a kind.

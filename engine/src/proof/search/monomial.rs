@@ -2,7 +2,6 @@
 
 use super::algebra::Ratio;
 use crate::proof::check::MAX_VARIABLES;
-use crate::proof::effort;
 use std::sync::Arc;
 
 /// The first slack variable; the variables before it are those of the checker.
@@ -11,8 +10,8 @@ pub const FIRST_SLACK: usize = MAX_VARIABLES;
 /// Maximum number of variables: those of the checker and 32 slack variables.
 pub const VARIABLES: usize = FIRST_SLACK + 32;
 
-/// The sum of two powers that exceeds the maximum. Only repeated substitution of pivots leads to it.
-const TOO_LARGE: u8 = u8::MAX;
+/// The variable in place of a quantity that is too large to be computed. Nothing is known of it.
+pub const UNKNOWN: usize = VARIABLES - 1;
 
 /// A product of powers of variables, times e to the power of a quotient, if any.
 ///
@@ -76,15 +75,16 @@ impl Monomial {
         self.exponent.as_deref()
     }
 
-    /// Returns the product.
+    /// Returns the product; the [unknown](UNKNOWN) variable if a power would exceed 254, to which only repeated
+    /// substitution of pivots leads.
     pub fn times(&self, other: &Self) -> Self {
         let (mut powers, mut largest) = (self.powers, 0);
         for (n, m) in powers.iter_mut().zip(&other.powers) {
             *n = n.saturating_add(*m);
             largest = largest.max(*n);
         }
-        if largest == TOO_LARGE {
-            effort::exceed();
+        if largest == u8::MAX {
+            return Monomial::of(UNKNOWN);
         }
         let exponent = match (&self.exponent, &other.exponent) {
             (None, e) | (e, None) => e.clone(),

@@ -1,9 +1,11 @@
 //! Rational numbers, stored as machine integers where these suffice and as GMP integers otherwise.
 
 use crate::operators;
-use crate::proof::effort;
 use rug::Rational;
 use std::cmp::Ordering;
+
+/// Maximum number of binary digits of a coefficient; the checker accepts 127.
+const MAX_BITS: u32 = 4096;
 
 /// A rational number.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,12 +28,12 @@ operators! { [] Number;
             let [n, d, m, e] = [n, d, m, e].map(wide);
             Number::quotient(n * e + m * d, d * e)
         }
-        _ => Number::large(a.to_rational() + b.to_rational()),
+        _ => (a.to_rational() + b.to_rational()).into(),
     };
     Sub sub |a, b| a + -b;
     Mul mul |a, b| match (&a.0, &b.0) {
         (Small(n, d), Small(m, e)) => Number::quotient(wide(n) * wide(m), wide(d) * wide(e)),
-        _ => Number::large(a.to_rational() * b.to_rational()),
+        _ => (a.to_rational() * b.to_rational()).into(),
     };
     - |a| match &a.0 {
         Small(n, d) => Number::quotient(-wide(n), wide(d)),
@@ -95,10 +97,10 @@ impl Number {
         }
     }
 
-    /// Converts a result of GMP and counts its words as effort.
-    fn large(q: Rational) -> Self {
-        effort::spend((q.numer().significant_digits::<u64>() + q.denom().significant_digits::<u64>()) / 8);
-        q.into()
+    /// Returns `true` if numerator and denominator together have more than [`MAX_BITS`] binary digits.
+    pub fn is_too_large(&self) -> bool {
+        let Large(q) = &self.0 else { return false };
+        q.numer().significant_bits() + q.denom().significant_bits() > MAX_BITS
     }
 
     /// Converts to a rational number of GMP.
@@ -158,7 +160,7 @@ impl Number {
             _ => {
                 let (a, b) = (self.to_rational(), other.to_rational());
                 let numerator = a.numer().clone().gcd(b.numer());
-                Number::large((numerator, a.denom().clone().lcm(b.denom())).into())
+                Rational::from((numerator, a.denom().clone().lcm(b.denom()))).into()
             }
         }
     }

@@ -19,7 +19,7 @@
 
 use super::algebra::{Monomial, Number, Poly, Ratio, VARIABLES};
 use crate::proof::check::Sign::{self, Negative, NonNegative, NonPositive, Positive, Zero};
-use crate::proof::effort;
+use crate::proof::effort::Effort;
 use rug::{Complete, Integer, Rational};
 use std::iter;
 
@@ -29,12 +29,13 @@ use std::iter;
 pub struct SignEnv {
     signs: [Option<Sign>; VARIABLES],
     is_unit: [bool; VARIABLES],
+    effort: Effort,
 }
 
 impl SignEnv {
     /// Creates an environment without signs, in which these variables are between −1 and 1.
-    pub fn new(units: impl IntoIterator<Item = usize>) -> Self {
-        let mut env = SignEnv { signs: [None; VARIABLES], is_unit: [false; VARIABLES] };
+    pub fn new(units: impl IntoIterator<Item = usize>, effort: Effort) -> Self {
+        let mut env = SignEnv { signs: [None; VARIABLES], is_unit: [false; VARIABLES], effort };
         units.into_iter().for_each(|x| env.is_unit[x] = true);
         env
     }
@@ -54,6 +55,11 @@ impl SignEnv {
         let mut env = self.clone();
         env.set(x, Some(sign));
         env
+    }
+
+    /// Counts an operation on each pair of terms of two polynomials. Returns `None` if the search exceeds its effort.
+    pub fn spend(&self, a: &Poly, b: &Poly) -> Option<()> {
+        self.effort.spend(a.terms().len().max(1).saturating_mul(b.terms().len().max(1)))
     }
 
     /// Returns `true` if a variable is between −1 and 1 by definition.
@@ -144,6 +150,7 @@ impl Certificate {
             return None;
         }
         let leading = find(&a, known).filter(|a| a.sign.is_strict())?;
+        known.spend(&a, &d).and(known.spend(&b, &b))?;
         let rest = find(&(Poly::constant(4) * &a * d - &b * &b), known)?;
         let sign = leading.sign.times(NonNegative.plus(rest.sign)?);
         let root = Poly::constant(2) * a * Poly::variable(x) + b;
@@ -254,8 +261,7 @@ fn numerator(of: &Ratio, known: &SignEnv) -> Option<Poly> {
 /// They follow from xᵏ = (a − (1 − a))ᵏ and, for those of lower degree, from 1 = a + (1 − a).
 fn bernstein(of: &Poly, x: usize) -> Vec<Poly> {
     let zero = Poly::zero();
-    let powers = (0..=of.degree(x)).take_while(|k| effort::spend(1 + usize::from(*k)));
-    powers.fold(Vec::new(), |sums: Vec<Poly>, k| {
+    (0..=of.degree(x)).fold(Vec::new(), |sums: Vec<Poly>, k| {
         let coefficient = of.coefficient(x, k);
         let shifted = iter::once(&zero).chain(&sums);
         let sums = sums.iter().chain([&zero]).zip(shifted).zip(0..);
@@ -278,7 +284,8 @@ mod tests {
         let u = 0;
         let x = Poly::variable(u);
         let of = Poly::constant(3) * &x * &x + Poly::constant(2) * &x + Poly::constant(5);
-        let found = Certificate::square(&of, u, &SignEnv::new([]), &Certificate::termwise).unwrap();
+        let found = Certificate::square(&of, u, &SignEnv::new([], Effort::default()), &Certificate::termwise)
+            .unwrap();
         let Rule::Square { leading, root, rest } = found.rule() else { panic!("another rule") };
         assert_eq!(Poly::constant(4) * leading.of() * of, root * root + rest.of());
     }
@@ -286,8 +293,10 @@ mod tests {
     #[test]
     fn rule_5_applies_to_squares_of_symbols_between_minus_1_and_1() {
         let [a, b] = [0, 1].map(Poly::variable);
-        let sign =
-            |of: Poly| Certificate::triangle_inequality(&of, &SignEnv::new([0, 1])).map(|found| found.sign());
+        let sign = |of: Poly| {
+            Certificate::triangle_inequality(&of, &SignEnv::new([0, 1], Effort::default()))
+                .map(|found| found.sign())
+        };
         // 1 + 3 a² − b ≥ 1 − 1.
         let of = |power: Poly| Poly::constant(1) + Poly::constant(3) * power - &b;
         assert_eq!([of(&a * &a), -of(&a * &a)].map(sign), [Some(NonNegative), Some(NonPositive)]);
@@ -296,7 +305,7 @@ mod tests {
 
     #[test]
     fn rule_6_applies_to_symbols_between_minus_1_and_1_only() {
-        let known = SignEnv::new([0, 1]);
+        let known = SignEnv::new([0, 1], Effort::default());
         let two = || Poly::constant(2);
         let of = |x| Certificate::endpoints(&(two() + Poly::variable(x)), x, &known, &Certificate::termwise);
         assert!(of(0).is_some() && of(1).is_some());
@@ -314,7 +323,7 @@ mod tests {
             let expected = if [16, 18].contains(&i) { Poly::constant(large()) } else { Poly::zero() };
             assert_eq!(coefficient, expected, "of power {i}");
         }
-        let known = SignEnv::new([0, 1]);
+        let known = SignEnv::new([0, 1], Effort::default());
         let sign = |of: &Poly| {
             Certificate::endpoints(of, x, &known, &Certificate::termwise).map(|found| found.sign())
         };

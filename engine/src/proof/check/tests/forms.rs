@@ -160,8 +160,11 @@ fn large_numbers() -> Vec<Forged> {
         let reason = Reason::Certificate(Certificate { known, left, right });
         (flaw, claim.clone(), proof(&[0], vec![reason]), Refusal::TooLarge)
     };
-    let power =
-        |k: u32| (0..k).fold(Polynomial::constant(1), |power, _| power.times(&page.poly(&a)).unwrap());
+    let power = |k: u32| {
+        (0..k).fold(Polynomial::constant(1), |power, _| {
+            power.times(&page.poly(&a), &Effort::default()).unwrap()
+        })
+    };
     let [half, most] = [i128::MAX / 2 + 1, i128::MAX].map(Polynomial::constant);
     // The square of a sum of 18 · 2⁷ products of powers.
     let long = (0..=u8::MAX / 2).flat_map(|k| (0..18).map(move |m| (k, m)));
@@ -172,7 +175,8 @@ fn large_numbers() -> Vec<Forged> {
     };
     let long = Polynomial::new(long.map(of_powers).collect()).unwrap();
     let unit = positive("f", &u).assuming(&[Hypothesis::between(&u, -1, 1)]);
-    let least = Polynomial::constant(i128::MIN).times(&Page::of(&unit).poly(x("t₁"))).unwrap();
+    let least =
+        Polynomial::constant(i128::MIN).times(&Page::of(&unit).poly(x("t₁")), &Effort::default()).unwrap();
     let least = Certificate { known: vec![], left: Polynomial::constant(1), right: least };
     vec![
         row("a product of numbers", vec![], most.clone(), page.poly(&a)),
@@ -210,9 +214,26 @@ fn forged_quantities_are_refused() {
 #[test]
 fn sums_do_not_wrap() {
     let most = Polynomial::constant(i128::MAX);
-    assert_eq!(most.plus_multiple(1, &Polynomial::constant(1)), Err(Refusal::TooLarge));
-    assert_eq!(most.plus_multiple(2, &most), Err(Refusal::TooLarge));
+    assert_eq!(most.plus_multiple(1, &Polynomial::constant(1), &Effort::default()), Err(Refusal::TooLarge));
+    assert_eq!(most.plus_multiple(2, &most, &Effort::default()), Err(Refusal::TooLarge));
     assert_eq!(Polynomial::new(vec![([0; MAX_VARIABLES], i128::MIN); 2]), Err(Refusal::TooLarge));
-    assert_eq!(most.plus_multiple(-1, &most), Ok(Polynomial::zero()));
+    assert_eq!(most.plus_multiple(-1, &most, &Effort::default()), Ok(Polynomial::zero()));
     assert_eq!(Polynomial::variable(MAX_VARIABLES), Err(Refusal::TooLarge));
+}
+
+/// Each of 1600 lemmas expands the fourth power of a sum of 16 symbols twice, to show that 1 > 0.
+#[test]
+fn a_proof_of_excessive_effort_is_refused() {
+    let names = ["a", "b", "c", "d", "f", "g", "h", "i", "j", "k", "l", "m", "n", "o", "p", "r"];
+    let (sum, z) = (names.iter().fold(n(0), |sum, name| sum + x(name)), x("z₁"));
+    let claim = non_negative("square", &sum * &sum);
+    let page = Page::of(&claim);
+    let value = || Known::Value(page.poly(&sum));
+    let power = n(1) + &z * &z * &z * &z;
+    let once = || page.lemma(1, page.certificate(vec![value()], &power, &power));
+    let often = || page.lemma(1, page.certificate((0..40).map(|_| once()).collect(), 1, 1));
+    let by = |lemmas: Vec<Known>| proof(&[], vec![page.with([vec![value()], lemmas].concat(), 1, &z * &z)]);
+    accept(&claim, &by(vec![often()]));
+    let all = by((0..40).map(|_| often()).collect());
+    refuse(vec![("a proof that takes too long", claim.clone(), all, Refusal::TooLarge)]);
 }

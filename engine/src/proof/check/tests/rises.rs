@@ -11,7 +11,7 @@ fn power() -> Polynomial {
 }
 
 fn minus(of: Polynomial, other: &Polynomial) -> Polynomial {
-    of.plus_multiple(-1, other).unwrap()
+    of.plus_multiple(-1, other, &Effort::default()).unwrap()
 }
 
 fn one() -> Polynomial {
@@ -68,7 +68,7 @@ fn parts() -> Vec<Forged> {
     let shifted = Rise { of: minus(right.of.clone(), &one()), ..right.clone() };
     let falling =
         rise(minus(one(), &power()), node(leaf(&[], vec![form(minus(Polynomial::zero(), &power()))])));
-    let large = Polynomial::constant(1 << 40).times(&right.of).unwrap();
+    let large = Polynomial::constant(1 << 40).times(&right.of, &Effort::default()).unwrap();
     let place = |i: usize, part: Node| {
         let mut other = right.clone();
         other.parts[i] = part;

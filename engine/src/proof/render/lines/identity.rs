@@ -232,7 +232,7 @@ pub(super) fn placeholder(sum: String, sums: &mut Vec<String>) -> Tree {
 /// Returns `true` for a variable from a number on, and for minus one.
 fn is_variable(of: &Polynomial, first: usize) -> bool {
     let variable = of.as_variable();
-    variable.or_else(|| Polynomial::zero().plus_multiple(-1, of).ok()?.as_variable()) >= Some(first)
+    variable.or_else(|| of.negated().ok()?.as_variable()) >= Some(first)
 }
 
 /// Returns a polynomial divided by a number or a variable, if its terms are multiples of that.
