@@ -50,7 +50,7 @@ pub use premises::{MAX_DEPTH, MAX_SIZE, Premise};
 pub(in crate::proof) use premises::{MAX_ROUNDINGS, check_premises, check_size, roundings};
 pub(in crate::proof) use quotient::Quotient;
 pub use sign::Sign;
-pub(in crate::proof) use state::{Reader, State};
+pub(in crate::proof) use state::{State, Translator};
 pub use table::Atom;
 pub(in crate::proof) use table::{Problem, derivative};
 
@@ -354,9 +354,9 @@ fn check_node(problem: &Problem, cases: &mut Vec<(Polynomial, Sign)>, node: &Nod
             Ok(())
         }
         Node::Leaf(leaf) => {
-            let mut reader = Reader::new(problem, List::of(leaf));
-            reader.leaf(leaf, cases)?;
-            if reader.source.is_empty() { Ok(()) } else { Err(Refusal::Unused) }
+            let mut translator = Translator::new(problem, List::of(leaf));
+            translator.leaf(leaf, cases)?;
+            if translator.source.is_empty() { Ok(()) } else { Err(Refusal::Unused) }
         }
     }
 }
@@ -401,7 +401,7 @@ impl Source for List<'_> {
     }
 }
 
-impl<S: Source> Reader<'_, S> {
+impl<S: Source> Translator<'_, S> {
     /// Checks the goal under the assumptions of cases.
     pub(in crate::proof) fn leaf(&mut self, leaf: &Leaf, cases: &[(Polynomial, Sign)]) -> Checked<()> {
         self.assume_cases(cases);

@@ -1,6 +1,6 @@
 //! The search for proofs.
 //!
-//! The checker's reader of formulas runs with a [search](source) in the place of a proof: whatever it asks for is
+//! The checker's translator of formulas runs with a [search](source) in the place of a proof: whatever it asks for is
 //! found and listed. Signs are found by [six rules](rules), and expressed by the symbols of the statement as
 //! identities that the [checker](super::check) expands. Nothing here is trusted.
 //!
@@ -10,7 +10,7 @@
 //! (a b + c y − s)/c, where c ≠ 0 is known.) Where no pivot is found, v may be divided by a positive symbol: for
 //! k > 0, the hypothesis 1 − k > 0 is (1 − k)/k = s > 0, and k is 1/(1 + s). A hypothesis h > 0 without a pivot
 //! is retained: where no rule finds the sign of v, the rules may find those of m and of v − m h, for a quotient m
-//! that makes a symbol cancel. The reader itself replaces a symbol in an interval, before what mentions the symbol.
+//! that makes a symbol cancel. The translator itself replaces a symbol in an interval, before what mentions the symbol.
 //!
 //! If the sign that decides a branch is not found, both cases of its quantity are proved. For an absolute value
 //! |x| no cases are needed at first: x is replaced by t |x| for some −1 ≤ t ≤ 1.
@@ -25,18 +25,18 @@ pub(in crate::proof) mod error;
 mod finder;
 mod form;
 mod knowledge;
-mod monomial;
 mod number;
 pub(in crate::proof) mod rules;
 mod source;
+pub(in crate::proof) mod symbol;
 #[cfg(test)]
 mod tests;
 
 pub use self::error::{ProofError, Quantity};
 
 use super::check::{
-    self, Atom, Leaf, Node, Polynomial, Premise, Problem, Proof, Reader, Refusal, Rise, Sign, State, check,
-    parts_of_rise,
+    self, Atom, Leaf, Node, Polynomial, Premise, Problem, Proof, Refusal, Rise, Sign, State, Translator,
+    check, parts_of_rise,
 };
 use super::effort::MAX_EFFORT;
 use crate::formula::statement::{Proposition, Statement};
@@ -192,9 +192,9 @@ impl<'a> Attempt<'a> {
         let mut rises = Vec::new();
         let (search, failure) = loop {
             let leaf = Leaf { rises: rises.clone(), ..Leaf::default() };
-            let mut reader = Reader::new(self.problem, self.search(leaf));
-            let checked = self.read(&mut reader, decisions);
-            let Reader { state, source: mut search, .. } = reader;
+            let mut translator = Translator::new(self.problem, self.search(leaf));
+            let checked = self.read(&mut translator, decisions);
+            let Translator { state, source: mut search, .. } = translator;
             match (checked, search.failure.take()) {
                 (Ok(()), _) => return Ok(Node::Leaf(search.leaf.into())),
                 (Err(_), Some(Failure::Rise(rise))) if rises.len() < MAX_RISES => {
@@ -276,30 +276,36 @@ impl<'a> Attempt<'a> {
         Search { known, leaf, sizes, is_ordered, position: 0, failure, required }
     }
 
-    /// Lets the reader check the goal, and lists the hypotheses that it uses.
-    fn read(&self, reader: &mut Reader<'a, Search<'a>>, decisions: &[Decision]) -> Result<(), Failure> {
+    /// Lets the translator check the goal, and lists the hypotheses that it uses.
+    fn read(
+        &self,
+        translator: &mut Translator<'a, Search<'a>>,
+        decisions: &[Decision],
+    ) -> Result<(), Failure> {
         let cases: Vec<_> = decisions.iter().filter_map(case).collect();
-        reader.assume_cases(&cases);
+        translator.assume_cases(&cases);
         let (order, mut read) = (self.order(), BTreeSet::new());
         for (position, i) in order.iter().enumerate() {
-            reader.source.follow(position, decisions);
+            translator.source.follow(position, decisions);
             let hypothesis = self.problem.hypotheses[*i];
             if hypothesis.interval().is_some_and(|(x, ..)| !read.insert(x)) {
                 continue;
             }
-            reader.assume(*i).map_err(|reason| self.not_assumed(*i, reason, &mut reader.source.failure))?;
-            reader.source.leaf.hypotheses.push(*i);
+            translator
+                .assume(*i)
+                .map_err(|reason| self.not_assumed(*i, reason, &mut translator.source.failure))?;
+            translator.source.leaf.hypotheses.push(*i);
             if hypothesis.interval().is_none() {
-                let of = reader.value(self.problem.values[*i])?;
-                let value = reader.source.known.ratio(&of, &reader.state);
-                let (fact, scale) = (reader.state.facts.iter().len() - 1, Poly::constant(1).into());
-                reader.source.known.assume(hypothesis, value, AssumedFact { fact, den: of.den, scale });
+                let of = translator.value(self.problem.values[*i])?;
+                let value = translator.source.known.ratio(&of, &translator.state);
+                let (fact, scale) = (translator.state.facts.iter().len() - 1, Poly::constant(1).into());
+                translator.source.known.assume(hypothesis, value, AssumedFact { fact, den: of.den, scale });
             }
         }
-        reader.source.follow(order.len(), decisions);
-        let Leaf { rises, orders, .. } = &reader.source.leaf;
+        translator.source.follow(order.len(), decisions);
+        let Leaf { rises, orders, .. } = &translator.source.leaf;
         let rest = Leaf { rises: rises.clone(), orders: orders.clone(), ..Leaf::default() };
-        reader.conclude(&rest, &cases)?;
+        translator.conclude(&rest, &cases)?;
         Ok(())
     }
 

@@ -1,8 +1,8 @@
 //! Proofs step by step, as the checker reads them, for those who print them.
 
 use super::check::{
-    AbsoluteValue, Leaf, List, Polynomial, Problem, Question, Quotient, Reader, Reason, Refusal, Same, Sign,
-    Source, State,
+    AbsoluteValue, Leaf, List, Polynomial, Problem, Question, Quotient, Reason, Refusal, Same, Sign, Source,
+    State, Translator,
 };
 
 /// A step of a leaf, in the order in which the checker asks for it.
@@ -42,14 +42,14 @@ pub fn trace<'p>(
     leaf: &Leaf,
     cases: &[(Polynomial, Sign)],
 ) -> Result<(State<'p>, Vec<Step>), Refusal> {
-    let mut reader = Reader::new(problem, Trace { list: List::of(leaf), steps: Vec::new() });
-    reader.leaf(leaf, cases)?;
-    Ok((reader.state, reader.source.steps))
+    let mut translator = Translator::new(problem, Trace { list: List::of(leaf), steps: Vec::new() });
+    translator.leaf(leaf, cases)?;
+    Ok((translator.state, translator.source.steps))
 }
 
-/// Returns a reader of the formulas that were read before, without a proof.
-pub fn reread(state: State<'_>) -> Reader<'_, List<'static>> {
-    Reader { state, source: List::default() }
+/// Returns a translator of the formulas that were read before, without a proof.
+pub fn reread(state: State<'_>) -> Translator<'_, List<'static>> {
+    Translator { state, source: List::default() }
 }
 
 impl Source for Trace<'_> {

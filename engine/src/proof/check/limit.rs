@@ -8,7 +8,7 @@
 //! A fact is added by
 //!
 //! - a case: its quantity must not depend on x;
-//! - a hypothesis: if it mentions x, [`Reader::holds_later`] comes before it;
+//! - a hypothesis: if it mentions x, [`Translator::holds_later`] comes before it;
 //! - a sign, a divisor or an absolute value: it follows, at each x, from facts that are valid there;
 //! - a rise or an order: likewise, and from hypotheses, all of which have been examined when the limit is accepted.
 //!
@@ -19,14 +19,14 @@
 use super::polynomial::Polynomial;
 use super::quotient::Quotient;
 use super::sign::Sign;
-use super::state::Reader;
+use super::state::Translator;
 use super::table::Atom;
 use super::{Checked, Refusal, Source};
 use crate::formula::Relation;
 use crate::number::Tree;
 use std::cmp::Ordering;
 
-impl<S: Source> Reader<'_, S> {
+impl<S: Source> Translator<'_, S> {
     /// Checks that `of` tends to `to` as a symbol tends to infinity.
     pub fn limit(
         &mut self,

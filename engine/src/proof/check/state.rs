@@ -58,8 +58,8 @@ pub struct Size {
     pub fact: usize,
 }
 
-/// A reader of formulas, which asks a source for everything that a proof states.
-pub struct Reader<'p, S> {
+/// A translator of formulas, which asks a source for everything that a proof states.
+pub struct Translator<'p, S> {
     /// The knowledge at the leaf.
     pub state: State<'p>,
     /// The proof, or a search for one.
@@ -113,10 +113,10 @@ impl<'p> State<'p> {
     }
 }
 
-impl<'p, S: Source> Reader<'p, S> {
-    /// Returns a reader that knows no hypothesis.
+impl<'p, S: Source> Translator<'p, S> {
+    /// Returns a translator that knows no hypothesis.
     pub fn new(problem: &'p Problem, source: S) -> Self {
-        Reader { state: State::new(problem), source }
+        Translator { state: State::new(problem), source }
     }
 
     /// Returns the sign of a polynomial, and the number of the fact.

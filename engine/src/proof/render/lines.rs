@@ -15,8 +15,8 @@ use crate::formula::symbols::subscripted;
 use crate::number::tree::Op;
 use crate::number::{Exponential, PositivePart, Tree};
 use crate::proof::check::{
-    AbsoluteValue, Atom, Leaf, List, Node, Polynomial, Problem, Quotient, Reader, Reason, Rise, Sign, State,
-    parts_of_rise,
+    AbsoluteValue, Atom, Leaf, List, Node, Polynomial, Problem, Quotient, Reason, Rise, Sign, State,
+    Translator, parts_of_rise,
 };
 use crate::proof::trace::{Step, reread, trace};
 
@@ -61,11 +61,12 @@ struct End<'a> {
 impl<'a> Lines<'a> {
     /// Returns a writer for a goal.
     pub(super) fn new(printer: &'a ProofPrinter<'a>, problem: &'a Problem<'a>) -> Self {
-        let mut reader = reread(State::new(problem));
+        let mut translator = reread(State::new(problem));
         let formulas = (0..).map_while(|i| Some((i, problem.table.formula(i).ok()?)));
         let named = formulas.filter(|(_, tree)| printer.registry.call_name(tree).is_some());
         let named = named.filter_map(|(i, tree)| {
-            let value = reader.value(i).ok().filter(|of| of.den.is_empty() && of.num.terms().len() > 1)?;
+            let value =
+                translator.value(i).ok().filter(|of| of.den.is_empty() && of.num.terms().len() > 1)?;
             Some((value.num, tree.clone()))
         });
         Lines { printer, problem, atoms: formulas_of_atoms(problem), named: named.collect() }
@@ -146,25 +147,25 @@ impl<'a> Lines<'a> {
         let goal = self.problem.proposition;
         // Formulas that were translated are translated again without the help of a proof.
         let mut written = Vec::new();
-        let mut reader = reread(state);
-        for (i, fact) in reader.state.assumed.clone() {
+        let mut translator = reread(state);
+        for (i, fact) in translator.state.assumed.clone() {
             if let Some(hypothesis) = i.map(|i| self.problem.hypotheses[i])
-                && let Ok(value) = reader.translate(&hypothesis.value)
-                && reader.state.facts.get(fact).is_ok_and(|(of, _)| value == of.clone().into())
+                && let Ok(value) = translator.translate(&hypothesis.value)
+                && translator.state.facts.get(fact).is_ok_and(|(of, _)| value == of.clone().into())
             {
                 written.push((fact, hypothesis.value.clone()));
             }
         }
-        let facts_of_cases = reader.state.assumed.iter().filter(|(hypothesis, _)| hypothesis.is_none());
+        let facts_of_cases = translator.state.assumed.iter().filter(|(hypothesis, _)| hypothesis.is_none());
         let names = cases.iter().enumerate().map(|(depth, (on, _))| self.case(on, &cases[..depth]));
         written.extend(facts_of_cases.map(|(_, fact)| *fact).zip(names));
-        let decisions = self.decisions(leaf, &mut reader);
+        let decisions = self.decisions(leaf, &mut translator);
         let sides = match (goal, &self.problem.goal[..]) {
             (Proposition::Derivative(..), [_, is, derivative]) => [*derivative, *is],
             (_, sides) => [sides[0], sides[1]],
         };
-        let values = sides.map(|of| reader.value(of).ok());
-        let end = End { goal: self, state: reader.state, written, decisions };
+        let values = sides.map(|of| translator.value(of).ok());
+        let end = End { goal: self, state: translator.state, written, decisions };
         let last = steps.len().saturating_sub(if matches!(goal, Proposition::Within(..)) { 2 } else { 1 });
         let (before, of_goal) = steps.split_at(last);
         let mut lines: Vec<_> = end.errors().into_iter().collect();
@@ -176,7 +177,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Returns the quantities whose signs decide the value or the order of formulas, with what follows.
-    fn decisions(&self, leaf: &Leaf, reader: &mut Reader<List>) -> Vec<(Quotient, String)> {
+    fn decisions(&self, leaf: &Leaf, translator: &mut Translator<List>) -> Vec<(Quotient, String)> {
         let (table, mut all) = (&self.problem.table, Vec::new());
         for errors in &leaf.orders {
             let [Some(Atom::Error(a)), Some(Atom::Error(b))] = errors.map(|x| table.atoms().get(x)) else {
@@ -184,16 +185,16 @@ impl<'a> Lines<'a> {
             };
             let rounded = [*a, *b].map(|of| table.formula(of).map(|of| self.text(&of.round())));
             let order = rounded.map(Result::unwrap_or_default).join(" ≥ ");
-            all.extend(difference(*a, *b, reader).map(|decides| (decides, order)));
+            all.extend(difference(*a, *b, translator).map(|decides| (decides, order)));
         }
         for (i, op) in (0..).map_while(|i| Some((i, table.op(i).ok()?))) {
             let (decides, branches) = match op {
-                Op::PositivePart(a) => (reader.value(a).ok(), [a, a]),
-                Op::Min(a, b) => (difference(b, a, reader), [a, b]),
+                Op::PositivePart(a) => (translator.value(a).ok(), [a, a]),
+                Op::Min(a, b) => (difference(b, a, translator), [a, b]),
                 _ => continue,
             };
-            let (Some(decides), Ok(value)) = (decides, reader.value(i)) else { continue };
-            let is_first = reader.value(branches[0]).is_ok_and(|of| of == value);
+            let (Some(decides), Ok(value)) = (decides, translator.value(i)) else { continue };
+            let is_first = translator.value(branches[0]).is_ok_and(|of| of == value);
             let [first, second] = branches.map(|branch| self.formula(branch));
             let follows = match op {
                 // The minimum of −x and x is −|x|.
@@ -446,7 +447,7 @@ fn indented(lines: impl IntoIterator<Item = String>) -> impl Iterator<Item = Str
 }
 
 /// Returns the difference of two formulas that have been read.
-fn difference(a: usize, b: usize, reader: &mut Reader<List>) -> Option<Quotient> {
-    let (a, b) = (reader.value(a).ok()?, reader.value(b).ok()?);
-    reader.state.facts.sum(&a, -1, &b).ok()
+fn difference(a: usize, b: usize, translator: &mut Translator<List>) -> Option<Quotient> {
+    let (a, b) = (translator.value(a).ok()?, translator.value(b).ok()?);
+    translator.state.facts.sum(&a, -1, &b).ok()
 }

@@ -10,7 +10,7 @@ use crate::proof::ProofError;
 use crate::proof::search::Quantity;
 use crate::proof::search::assumption::AssumptionUse;
 use crate::proof::search::context::Context;
-use crate::proof::search::error::Symbol;
+use crate::proof::search::symbol::Symbol;
 
 impl ProofPrinter<'_> {
     /// Returns the reason why a proof failed, with definitions of the names of the search: `no

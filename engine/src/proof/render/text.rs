@@ -7,7 +7,7 @@ use crate::proof::search::Quantity;
 use crate::proof::search::algebra::{Monomial, Poly, Ratio};
 use crate::proof::search::choice;
 use crate::proof::search::context::Context;
-use crate::proof::search::error::Symbol;
+use crate::proof::search::symbol::Symbol;
 use rug::Integer;
 use std::fmt;
 

@@ -35,7 +35,7 @@ pub enum AssumptionUse {
     Variable(usize),
     /// A pivot, its value, and the slack variable for the quantity, unless that is 0.
     Pivot(Monomial, Ratio, Option<usize>),
-    /// The reader replaces a symbol by its value in an interval, with this parameter between −1 and 1.
+    /// The translator replaces a symbol by its value in an interval, with this parameter between −1 and 1.
     Interval(usize),
     /// The absolute value of the quantity is a variable.
     Size {

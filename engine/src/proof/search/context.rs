@@ -2,9 +2,9 @@
 
 use super::algebra::{FIRST_SLACK, Monomial, Poly, Ratio, UNKNOWN};
 use super::assumption::{Assumption, AssumptionUse, Multiple, SignedRatio};
-use super::choice::{self, PivotChoice};
-use super::error::Symbol;
+use super::choice;
 use super::rules::{Certificate, SignEnv};
+use super::symbol::Symbol;
 use crate::formula::Hypothesis;
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::number::Tree;
@@ -275,6 +275,67 @@ impl Context {
         let pivot = PivotChoice { context: self, hypothesis, value, equation: &equation, known }.pivot()?;
         let by = solve_for(&pivot, &equation, known)?;
         Some((pivot, by))
+    }
+}
+
+/// The choice of the monomial for which to solve the equation that `value` equals its slack variable, or 0.
+struct PivotChoice<'a> {
+    context: &'a Context,
+    hypothesis: Option<&'a Hypothesis>,
+    value: &'a Ratio,
+    equation: &'a Poly,
+    /// The known signs, with that of the slack variable.
+    known: &'a SignEnv,
+}
+
+impl PivotChoice<'_> {
+    /// Returns the monomial.
+    ///
+    /// The choice prefers a symbol of unknown sign whose coefficient is not 0, so that the symbol is eliminated;
+    /// otherwise a product with few symbols of known sign, so that little information is lost; otherwise a
+    /// symbol whose sign still follows after the substitution, as that of b does from b = a + s for b − a > 0.
+    ///
+    /// If the equation contains rounding errors, the symbol for which the hypothesis is to be solved comes
+    /// first, and products come last, because long expressions would replace them.
+    fn pivot(&self) -> Option<Monomial> {
+        let variables = self.value.num().variables();
+        let has_errors = variables.iter().any(|x| self.known.is_unit(*x));
+        self.free_symbol(&variables, has_errors).or_else(|| match has_errors {
+            true => self.signed_symbol(&variables).or_else(|| self.product()),
+            false => self.product().or_else(|| self.signed_symbol(&variables)),
+        })
+    }
+
+    /// Returns the symbol of unknown sign with the shortest coefficient.
+    fn free_symbol(&self, variables: &[usize], has_errors: bool) -> Option<Monomial> {
+        let solved_for = self.hypothesis.map(|hypothesis| Symbol::Own(hypothesis.solved_for));
+        let signs = &self.context.signs;
+        let free = variables.iter().filter(|x| signs.get(**x).is_none() && !self.known.is_unit(**x));
+        let solvable = free.filter(|x| solve_for(&Monomial::of(**x), self.equation, self.known).is_some());
+        let first = solvable.min_by_key(|x| {
+            let comes_later = has_errors && (solved_for.is_none() || self.context.symbol(**x) != solved_for);
+            (comes_later, self.equation.coefficient(**x, 1).terms().len())
+        });
+        first.map(|x| Monomial::of(*x))
+    }
+
+    /// Returns the product with the fewest symbols of known sign.
+    fn product(&self) -> Option<Monomial> {
+        let monomials = self.value.num().terms().map(|(m, _)| m);
+        let products = monomials.filter(|m| m.count() > 1 && !m.powers().any(|(x, _)| self.known.is_unit(x)));
+        let first =
+            products.min_by_key(|m| m.powers().filter(|(x, _)| self.context.signs.get(*x).is_some()).count());
+        first.filter(|m| solve_for(m, self.equation, self.known).is_some()).cloned()
+    }
+
+    /// Returns the first symbol whose sign follows from that of its value.
+    fn signed_symbol(&self, variables: &[usize]) -> Option<Monomial> {
+        variables.iter().find_map(|x| {
+            let pivot = Monomial::of(*x);
+            let by = self.context.reduce(&solve_for(&pivot, self.equation, self.known)?);
+            let sign = self.context.sign_under(by, &[], self.known)?.sign();
+            sign.implies(self.context.signs.get(*x)?).then_some(pivot)
+        })
     }
 }
 

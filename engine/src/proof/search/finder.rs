@@ -4,8 +4,8 @@ use super::Failure;
 use super::algebra::{Monomial, Poly, Ratio};
 use super::assumption::{AssumptionUse, SignedRatio};
 use super::dictionary::opaque;
-use super::error::Symbol;
 use super::knowledge::{AssumedFact, Knowledge};
+use super::symbol::Symbol;
 use crate::proof::check::{Certificate, Known, MAX_VARIABLES, Polynomial, State};
 
 /// Maximum nesting of lemmas.

@@ -3,9 +3,9 @@
 use super::ProofError;
 use super::algebra::{Poly, Ratio};
 use super::dictionary::opaque;
-use super::error::Symbol;
 use super::finder::{Finder, Result};
 use super::knowledge::{AssumedFact, Knowledge};
+use super::symbol::Symbol;
 use super::{Decision, Failure};
 use crate::formula::Relation;
 use crate::formula::claim::{PRECISION, SCALES};

@@ -100,14 +100,14 @@ impl<'w, 'p> Writer<'w, 'p> {
         for (_, label) in target.known_atoms().filter(|(x, _)| is_known(*x)) {
             writer.add_fact(label);
         }
-        let mut reader = reread(state.clone());
+        let mut translator = reread(state.clone());
         for (x, atom) in atoms.iter().enumerate().filter(|(x, _)| is_known(*x)) {
             let Atom::Exponential(of) = atom else { continue };
             if state.exponent(x).is_some() {
                 writer.equate(format!("F{x}"));
                 continue;
             }
-            let Ok(value) = reader.value(*of) else { continue };
+            let Ok(value) = translator.value(*of) else { continue };
             let mut known = state.exponents.iter();
             let same = known.find(|(_, exponent)| state.facts.are_equal(exponent, &value).unwrap_or(false));
             let other = match same {
