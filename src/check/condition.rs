@@ -134,13 +134,17 @@ pub(super) fn combinations(chosen: usize, of: usize) -> usize {
     (0..chosen.min(of - chosen)).fold(1, |ways, i| MIN_COMBINATIONS.min(ways * (of - i) / (i + 1)))
 }
 
+/// Returns `true` if the wrong answers are hardly the wrong ones by chance.
+fn is_significant(wrong: &[&Observation], right: &[&Observation]) -> bool {
+    combinations(wrong.len(), wrong.len() + right.len()) == MIN_COMBINATIONS
+}
+
 impl Condition {
     /// Returns the conditions that separate wrong answers from right ones, those with the widest gap first.
     pub(super) fn separating(wrong: &[&Observation], right: &[&Observation]) -> Vec<Self> {
         // Floats may miss R = 0, so not all of these answers have to be wrong.
         let is_grazing = |answer: &&Observation| answer.assessment().exact.state == State::Grazing;
-        let is_certain = combinations(wrong.len(), wrong.len() + right.len()) == MIN_COMBINATIONS;
-        if is_certain && wrong.iter().all(is_grazing) {
+        if is_significant(wrong, right) && wrong.iter().all(is_grazing) {
             return vec![Condition { state: Some(State::Grazing), threshold: None }];
         }
         let found = Threshold::separating(wrong, right);
@@ -157,7 +161,7 @@ impl Condition {
         };
         let state = Some(first);
         let alike: Vec<_> = right.iter().copied().filter(|answer| answer.state == state).collect();
-        if alike.is_empty() && is_certain {
+        if alike.is_empty() && is_significant(wrong, right) {
             return vec![Condition { state, threshold: None }];
         }
         let found = Threshold::separating(wrong, &alike).into_iter();
@@ -180,8 +184,7 @@ fn is_continuous(wrong: &[&Observation], right: &[&Observation]) -> bool {
 impl Threshold {
     /// Returns the thresholds that separate wrong answers from right ones, those with the widest gap first.
     fn separating(wrong: &[&Observation], right: &[&Observation]) -> Vec<Self> {
-        let is_certain = combinations(wrong.len(), wrong.len() + right.len()) == MIN_COMBINATIONS;
-        if !is_certain || is_continuous(wrong, right) {
+        if !is_significant(wrong, right) || is_continuous(wrong, right) {
             return Vec::new();
         }
         let found = Quantity::ALL.iter().filter_map(|quantity| Threshold::of(*quantity, wrong, right));
