@@ -26,7 +26,6 @@ mod examples;
 #[cfg(feature = "prover")]
 mod files;
 #[cfg(feature = "prover")]
-mod gallina;
 #[cfg(feature = "prover")]
 mod mutation;
 #[cfg(feature = "prover")]

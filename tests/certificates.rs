@@ -5,7 +5,7 @@ use crate::strategies::is_deep;
 use rayon::prelude::*;
 use spring_mass_contact::claims::registry;
 use spring_mass_contact::formula::Statement;
-use spring_mass_contact::proof::check::{Certificate, Known, MAX_VARIABLES, Node, Polynomial, Reason, check};
+use spring_mass_contact::proof::check::{Certificate, MAX_VARIABLES, Node, Polynomial, Step, check};
 use spring_mass_contact::proof::mutation::mutants;
 use spring_mass_contact::proof::refute;
 
@@ -20,31 +20,21 @@ fn spoil_form(form: &mut Polynomial, place: usize) {
     *form = Polynomial::new(terms).unwrap();
 }
 
-/// Changes one coefficient of a certificate, or of a lemma in it.
+/// Changes one coefficient of a certificate.
 fn spoil(certificate: &mut Certificate, place: usize) {
-    let lemmas = certificate.known.iter_mut().filter_map(|known| match known {
-        Known::Lemma(lemma) => Some(&mut lemma.1),
-        _ => None,
-    });
     // Any multiple of 0 is 0, so another left side would do for it.
-    match (place % 3, lemmas.into_iter().next()) {
-        (0, Some(lemma)) if !lemma.right.is_zero() => spoil_form(&mut lemma.right, place / 3),
-        (1, _) if !certificate.right.is_zero() => spoil_form(&mut certificate.left, place / 3),
-        _ => spoil_form(&mut certificate.right, place / 3),
-    }
+    let is_left = place % 2 == 1 && !certificate.right.is_zero();
+    spoil_form(if is_left { &mut certificate.left } else { &mut certificate.right }, place / 2);
 }
 
 /// Collects the certificates of a proof.
 fn certificates<'n>(node: &'n mut Node, all: &mut Vec<&'n mut Certificate>) {
     match node {
         Node::Cases(_, both) => both.iter_mut().for_each(|node| certificates(node, all)),
-        Node::Leaf(leaf) => {
-            leaf.rises.iter_mut().flat_map(|rise| &mut rise.parts).for_each(|node| certificates(node, all));
-            all.extend(leaf.signs.iter_mut().filter_map(|reason| match reason {
-                Reason::Certificate(certificate) => Some(certificate),
-                Reason::Fact(_) => None,
-            }));
-        }
+        Node::Leaf(steps) => all.extend(steps.iter_mut().filter_map(|step| match step {
+            Step::Show(_, certificate) => Some(certificate),
+            _ => None,
+        })),
     }
 }
 
@@ -106,19 +96,19 @@ mod data {
         for (old, new, is_read) in [
             (r#""left":[["1",[]]]"#, r#""left":[["2",[]]]"#, true),
             (r#""left":[["1",[]]]"#, r#""left":[]"#, true),
-            (r#"{"fact":2}"#, r#"{"fact":3}"#, true),
-            (r#"{"fact":2}"#, r#"{"fact":99}"#, true),
-            (r#""hypotheses":[0,"#, r#""hypotheses":["#, true),
-            (r#""sizes":[]"#, r#""sizes":["atom"]"#, true),
+            (r#""known":[3,2]"#, r#""known":[3,1]"#, true),
+            (r#"{"assume":0}"#, r#"{"assume":99}"#, true),
+            (r#"{"assume":0},"#, "", true),
             (r#"[["1",[]]]"#, r#"[["1",[[63,1]]]]"#, true),
             (r#"[["1",[]]]"#, r#"[["1",[[64,1]]]]"#, false),
             (r#"[["1",[]]]"#, r#"[["1",[[0,0]]]]"#, false),
             (r#"[["1",[]]]"#, r#"[["1",[[0,256]]]]"#, false),
             (r#"[["1",[]]]"#, r#"[["1",[]],["1",[]]]"#, false),
             (r#"[["1",[]]]"#, r#"[["170141183460469231731687303715884105728",[]]]"#, false),
-            (r#""sizes":[]"#, r#""sizes":["new"]"#, false),
-            (r#""sizes":[]"#, r#""sizes":[],"more":[]"#, false),
-            (r#","sizes":[]"#, "", false),
+            (r#"{"assume":0}"#, r#"{"assume":[]}"#, false),
+            (r#"{"assume":0}"#, r#"{"suppose":0}"#, false),
+            (r#""known":[3,2],"#, r#""known":[3,2],"more":[],"#, false),
+            (r#""known":[3,2],"#, "", false),
         ] {
             let spoiled = json.replacen(old, new, 1);
             assert_ne!(spoiled, json, "{old}");

@@ -56,7 +56,7 @@ fn a_proof_is_printed_in_readable_lines() {
     assert_eq!(paper.claim(proof.statement()), "(c + ε) ((ε (H − l) + m g) / (c + ε) − Δ) = R");
     assert_eq!(paper.used(proof), ["c > 0", "ε > 0"]);
     let lines = paper.proof(proof);
-    assert_eq!(lines.first().map(String::as_str), Some("divisor c + ε > 0"));
+    assert_eq!(lines.first().map(String::as_str), Some("c + ε > 0"));
 }
 
 /// The signs of symbols are used without saying so.

@@ -567,6 +567,13 @@ impl<'a> Text<'a> {
             |keyword: &str, close: &str| self.0.strip_prefix(keyword).and_then(|rest| rest.split_once(close));
         match says {
             Proposition::Equal(a, b) => {
+                let same = self.0.strip_prefix("both functions are ");
+                if let Some(same) =
+                    same.or_else(|| between("it is ", " for all values").map(|(same, _)| same))
+                {
+                    [a, b].into_iter().for_each(|side| self.part(same).is(side));
+                    return;
+                }
                 let (left, said, right) = self.sides();
                 assert_eq!(said, "=");
                 left.is(a);
@@ -772,14 +779,8 @@ struct Lines {
 }
 
 /// The beginnings of lines about the goal.
-const OF_GOAL: [&str; 6] = [
-    "both sides are ",
-    "it is ",
-    "the difference is ",
-    "the bound − it is ",
-    "the bound + it is ",
-    "each of the bound ± it is ",
-];
+const OF_GOAL: [&str; 5] =
+    ["both sides are ", "it is ", "the difference is ", "the bound − it is ", "the bound + it is "];
 
 impl Lines {
     fn value(&self, text: &str) -> Exact {
@@ -806,31 +807,32 @@ impl Lines {
 
     /// Checks one line at the numbers; returns the number of formulas in it.
     fn holds(&mut self, line: &str) -> usize {
-        let line = line.split_once(", by ").map_or(line, |(line, _)| line);
-        if let Some((equation, rest)) = line.split_once(" with |") {
+        let line = line.split(" for |eᵢ|").next().unwrap().split(" with |eᵢ|").next().unwrap();
+        let (fact, reason) = line.split_once(", as ").unwrap_or((line, ""));
+        if let Some((equation, rest)) = reason.split_once(" with |") {
             let (of, _) = equation.split_once(" = ").unwrap();
             let sign = if self.value(of) < Exact::from(0) { -1 } else { 1 };
             self.known.insert(rest.split_once('|').unwrap().0.to_string(), Exact::from(sign));
             self.chain(equation);
-            return 1;
         }
-        if let Some((follows, reason)) = line.split_once(", since ") {
-            self.chain(follows);
-            return 1 + self.holds(reason);
+        let fact = fact.split_once(" by ").map_or(fact, |(fact, _)| fact);
+        if let Some((name, rest)) = fact.split_once(" = ")
+            && let Some(name) = name.strip_prefix('s')
+        {
+            let (of, _) = rest.rsplit_once([' ']).unwrap();
+            let value = self.value(of.trim_end_matches([' ', '>', '≥', '=', '≤', '<']));
+            self.known.insert(format!("s{name}"), value);
         }
         let start = OF_GOAL.into_iter().find(|start| line.starts_with(start));
-        let fact = line.trim_start_matches("divisor ").trim_start_matches(start.unwrap_or(""));
-        let (fact, reason) = fact.split_once(": ").unwrap_or((fact, ""));
-        let value = self.chain(fact);
+        let value = self.chain(fact.trim_start_matches(start.unwrap_or("")));
         assert!(start.is_none() || self.values.contains(&value), "{line}: {:?}", self.values);
-        // Nothing more is said about a sum of many terms.
-        let Some((left, right)) = reason.split_once(" times ") else { return 1 };
-        if let Some(right) = right.strip_prefix("it is ") {
-            assert_eq!(self.value(left) * value, self.value(right), "{line}");
-        } else if let Some(right) = right.strip_prefix("the numerator is ") {
-            let (num, _) = fact.rsplit_once(" / ").unwrap();
-            assert_eq!(self.value(left) * self.value(num), self.value(right), "{line}");
-        }
+        let Some(right) =
+            reason.strip_prefix("it is ").map(|right| ("1", right)).or(reason.split_once(" times it is "))
+        else {
+            return 1;
+        };
+        let (left, right) = (self.value(right.0), self.value(right.1));
+        assert_eq!(left * value, right, "{line}");
         2
     }
 }

@@ -16,7 +16,7 @@
 //!   compiler is correct.
 //! - The model of rounding: without underflow and overflow, a result x rounded to p ≥ 2 bits is x (1 + γ e)
 //!   for some −1 ≤ e ≤ 1, where γ = 1/(2ᵖ + 1). [`check`](mod@check) derives it from rounding to nearest, which
-//!   machines and MPFR are trusted to implement, as a function of the exact result alone.
+//!   machines and MPFR are trusted to implement, as a function of the exact result alone; and two bounds of eˣ.
 //! - Claims about limits of sequences rest on this lemma:
 //!
 //!   > If |ρ| < 1 then ρᵏ → 0. *Proof.* For ρ ≠ 0 write 1/|ρ| = 1 + x with x > 0. By Bernoulli's inequality
@@ -26,11 +26,10 @@
 //! Most of this can be checked independently: [`coq`] writes the same claims for the proof assistant Coq,
 //! whose kernel checks them anew, and tests ensure that nothing is proved that numbers
 //! [`refute`](mod@refute). For a claim that the export [omits](coq::Development::omitted), the checker stands alone:
-//! limits with hypotheses on their variable other than its sign, limits in cases or of absolute values, and limits of
+//! limits with hypotheses on their variable other than lower bounds, limits in cases or of absolute values, and limits of
 //! exponentials other than one decaying at a constant rate. Rounding errors of formulas are proved as well, for every precision. Claims about
 //! the solver in floats, about its guarantees and iteration counts, are tested by experiments, not proved.
 
-mod bounds;
 pub mod check;
 pub mod coq;
 #[cfg(feature = "serde")]
@@ -40,9 +39,7 @@ pub mod mutation;
 pub mod refute;
 pub mod render;
 mod search;
-mod trace;
 
-pub use bounds::{RoundingBound, RoundingBoundError, rounding_bound};
 pub use check::{MAX_DEPTH, MAX_SIZE, Proof};
 pub use effort::MAX_EFFORT;
 pub use mutation::{MutationReport, test_mutations};

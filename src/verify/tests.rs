@@ -287,9 +287,10 @@ fn a_wrong_statement_is_refuted_and_an_unprovable_one_is_not_proved() {
         |name, proposition| equal(name, 0, 0).with_proposition(proposition).inheriting(rate.equation(), &[]);
     let wrong = Proposition::Equal(left.clone(), right + right);
     let wrong = named("wrong", wrong).assuming(rate.stated_hypotheses());
-    // eˣ ≥ 1 + x for every x is true, but it is proved for x ≥ 0 only.
+    // eˣ + e⁻ˣ ≥ 2 + x² for every x is true, but it does not follow from the laws of the checker.
     let q = Tree::symbol("q");
-    let open = named("open", Proposition::Sign(Relation::NonNegative, q.exp() - Tree::one() - &q));
+    let open = q.exp() + (-&q).exp() - Tree::int(2) - &q * &q;
+    let open = named("open", Proposition::Sign(Relation::NonNegative, open));
     let undefined = named("undefined", Proposition::Equal(Tree::one() / (&q - &q), Tree::one()));
     let report = run(&[], vec![rate.clone(), wrong, open, undefined], &options(1), &|_, _| ());
     let found: Vec<_> = report

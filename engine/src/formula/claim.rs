@@ -62,10 +62,9 @@ pub fn limit(
     match rate {
         Rate::Equal(rate) => parts.push(("rate", Proposition::Equal(distance, rate))),
         Rate::Within(bound) => {
-            let margin = &bound * &bound - &distance * &distance;
             parts.push(("limit of the bound", Proposition::Limit(bound.clone(), by, Tree::from(0))));
-            parts.push(("bound", Proposition::Sign(Relation::NonNegative, bound)));
-            parts.push(("within the bound", Proposition::Sign(Relation::NonNegative, margin)));
+            parts.push(("bound", Proposition::Sign(Relation::NonNegative, bound.clone())));
+            parts.push(("within the bound", Proposition::Within(distance, bound)));
         }
     }
     Statement::of_form(name, Form::Propositions(parts))

@@ -3,17 +3,16 @@
 //! # Certificates
 //!
 //! There is one rule for signs. A [`Certificate`] for a polynomial f states l f = r for two *forms* l and r,
-//! polynomials in quantities of known sign: symbols, hypotheses, and quantities certified before. The sign of
-//! a form is read off its terms: factors between −1 and 1 do not increase the absolute value of a term, and
-//! their squares do not change its sign. So 1 + e ≥ 0 for −1 ≤ e ≤ 1. Expanding both sides checks the
-//! identity.
+//! polynomials in atoms and facts, whose signs are known. The sign of a form is read off its terms: factors between −1
+//! and 1 do not increase the absolute value of a term, and their squares do not change its sign. So 1 + e ≥ 0 for
+//! −1 ≤ e ≤ 1. Expanding both sides checks the identity.
 //!
 //! # Proofs
 //!
-//! A proof of a goal is a tree of cases ([`Node`]), whose leaves ([`Leaf`]) list what they use in the order in
-//! which the checker needs it. The checker translates hypotheses and the goal into quotients of polynomials,
-//! operation by operation. It takes the sign of each quantity on which this depends from the list, and checks
-//! it. It does not search, and an error in a proof can only make it refuse.
+//! A proof of a goal is a tree of cases ([`Node`]), whose leaves are lists of [steps](Step). Most steps add a *fact*: the
+//! sign of a polynomial. Formulas are translated into quotients of polynomials, operation by operation. Where this
+//! depends on a sign, or on a divisor that is not 0, a fact before it has to state so. The goal is proved if the facts
+//! state the sign of its translation. The checker does not search, and an error in a proof can only make it refuse.
 //!
 //! The variables of polynomials are the [atoms](Atom) of the goal: its symbols, the errors of its rounded
 //! formulas, the parameters of symbols in their intervals, its absolute values with their factors, and its
@@ -24,9 +23,15 @@
 //! fl(x), the nearest number of p bits, is x (1 + γ e) for some −1 ≤ e ≤ 1, where γ = 1/(2ᵖ + 1), in the absence
 //! of overflow and underflow. *Proof.* Let 2ᵏ ≤ |x| < 2ᵏ⁺¹. Then |fl(x) − x| is at most 2ᵏ/2ᵖ, and, since 2ᵏ
 //! itself has p bits, at most |x| − 2ᵏ. Adding the second bound to 2ᵖ times the first gives
-//! (2ᵖ + 1) |fl(x) − x| ≤ 2ᵏ + |x| − 2ᵏ = |x|. □ Formulas that are equal up to a power of two share their e,
-//! because a change of units leaves the digits as they are. Rounding is monotone, so fl(a) ≥ fl(b) if a ≥ b; it
+//! (2ᵖ + 1) |fl(x) − x| ≤ 2ᵏ + |x| − 2ᵏ = |x|. □ A change of units by a power of two leaves the digits as they are, so
+//! formulas that [differ by one](Table::rounding) share their e. Rounding is monotone, so fl(a) ≥ fl(b) if a ≥ b; it
 //! is not continuous, so limits and derivatives of rounded formulas are refused.
+//!
+//! # Exponentials
+//!
+//! For x ≠ 0 the graph of the exponential function, which is convex, lies above its tangent at 0: eˣ > 1 + x. And
+//! (2 − x) eˣ < 2 + x for x > 0, because the derivative of 2 + x − (2 − x) eˣ, which is 0 at x = 0, is
+//! 1 − (1 − x) eˣ = eˣ (e⁻ˣ − 1 + x) > 0.
 //!
 //! # Limits
 //!
@@ -50,115 +55,85 @@ pub use premises::{MAX_DEPTH, MAX_SIZE, Premise};
 pub(in crate::proof) use premises::{MAX_ROUNDINGS, check_premises, check_size, roundings};
 pub(in crate::proof) use quotient::Quotient;
 pub use sign::Sign;
-pub(in crate::proof) use state::{State, Translator};
+pub(in crate::proof) use state::State;
 pub use table::Atom;
-pub(in crate::proof) use table::{Problem, derivative};
+pub(in crate::proof) use table::Problem;
 
-use crate::formula::claim::{PRECISION, SCALES};
-use crate::formula::statement::{Proposition, Statement};
-use crate::formula::{Hypothesis, Relation};
-use crate::number::Tree;
-use std::slice::Iter;
+use crate::formula::statement::Statement;
 
-/// Maximum nesting of cases, of lemmas in certificates, and of rising functions.
-const MAX_NESTING: u32 = 32;
+/// Maximum nesting of cases.
+const MAX_NESTING: usize = 32;
 
 /// A proof of the sign of a polynomial f: an identity l f = r.
 ///
-/// The variables of l and r are the atoms and, after these, the known quantities. The sign of l must be
-/// strict. The sign of f is the product of the signs of l and r.
+/// The variables of l and r are the atoms and, after these, the known facts. The sign of l must be strict. The sign of f
+/// is the product of the signs of l and r.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Certificate {
-    /// The quantities that l and r are expressed by.
-    pub known: Vec<Known>,
+    /// The numbers of the facts that l and r are expressed by.
+    pub known: Vec<usize>,
     /// The form l. Its sign follows from its terms and is strict.
     pub left: Polynomial,
     /// The form r. Its sign follows from its terms.
     pub right: Polynomial,
 }
 
-/// A quantity in a form.
+/// A step of a proof.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
-pub enum Known {
-    /// The fact with this number, with its sign.
-    Fact(usize),
-    /// Any polynomial of atoms. Nothing is known of its sign, except that its square is not negative.
-    Value(Polynomial),
-    /// A polynomial of atoms, with the sign that the certificate proves.
-    Lemma(Box<(Polynomial, Certificate)>),
-    /// The difference of two products of exponentials, given by their variables. It is 0: the exponents on
-    /// both sides have the same sum, as functions of the atoms.
+pub enum Step {
+    /// The hypothesis with this number. An interval gives its symbol a value; any other one adds a fact. In a limit, all
+    /// that mention its variable have to be assumed.
+    Assume(usize),
+    /// A polynomial and the certificate of its sign: a fact.
+    Show(Polynomial, Certificate),
+    /// The square of a polynomial, which is not negative: a fact.
+    Square(Polynomial),
+    /// The numbers of facts of strict sign, whose product will be a divisor.
+    Divisor(Vec<usize>),
+    /// The number of a formula x: e to the power of x, and its reciprocal, are atoms from here on.
+    Exponential(usize),
+    /// The number of a formula x: |x| is an atom from here on. That x is the product of this and another atom between
+    /// −1 and 1 is a fact.
+    AbsoluteValue(usize),
+    /// An instance of a law: a fact.
+    Law(Law),
+}
+
+/// A law of a function. Exponentials are given by their variables.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
+pub enum Law {
+    /// Two products of exponentials are equal if the sums of their exponents are.
     Exponents {
         /// The factors of the first product.
         left: Vec<usize>,
         /// The factors of the second product.
         right: Vec<usize>,
     },
-}
-
-/// A reason for the sign of a polynomial.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
-pub enum Reason {
-    /// It is the fact with this number, that is, the same polynomial.
-    Fact(usize),
-    /// The certificate proves it. The polynomial becomes the next fact.
-    Certificate(Certificate),
-}
-
-/// A statement that a rounded formula is an earlier one times a power of two, so that both have the same
-/// relative error.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Same {
-    /// The place of the earlier formula among the rounded formulas of the leaf.
-    pub rounding: usize,
-    /// The numerator of the power of two, a product of its symbols.
-    pub up: Polynomial,
-    /// The denominator of the power of two: `down` times the formula is `up` times the earlier one.
-    pub down: Polynomial,
-}
-
-/// The translation of min(−x, x), which is −|x|.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
-pub enum AbsoluteValue {
-    /// It is x or −x by the sign of 2 x.
-    BySign,
-    /// It is minus the atom [`Size`](Atom::Size) of x. That x is the product of this atom and its
-    /// [`Factor`](Atom::Factor) becomes the next fact.
-    Atom,
-    /// It is that of the earlier x with this number, which has the same value, or the opposite one.
-    Same(usize),
-}
-
-/// The sign of a function f(x) for x ≥ 0, by the mean value theorem: f(x) = f(0) + x f'(ξ) for some ξ > 0. It
-/// becomes the next fact.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Rise {
-    /// The function: a polynomial of symbols and exponentials. It becomes a formula, which is differentiated.
-    pub of: Polynomial,
-    /// The variable of x: a symbol that is known not to be negative, and that is no power of two.
-    pub x: usize,
-    /// The relation of f(0) to 0.
-    pub start: Relation,
-    /// The relation of f'(x) to 0 for x > 0.
-    pub slope: Relation,
-    /// Proofs, from the hypotheses that do not mention x, that f is differentiable for x ≥ 0, and of the two
-    /// relations.
-    pub parts: [Node; 3],
+    /// eˣ ≥ 1 + x, and eˣ > 1 + x if x ≠ 0.
+    AboveTangent(usize),
+    /// (2 − x) eˣ ≤ 2 + x for x ≥ 0, and (2 − x) eˣ < 2 + x if x > 0.
+    BelowPole(usize),
+    /// |x| = |y| if x = y or x = −y, for the formulas x and y with these numbers.
+    AbsoluteValues {
+        /// x and y.
+        of: [usize; 2],
+    },
+    /// fl(a) ≥ fl(b) for a ≥ b, where `rounded` are the numbers of the formulas fl(a) and fl(b).
+    Order {
+        /// fl(a) and fl(b).
+        rounded: [usize; 2],
+    },
 }
 
 /// A proof of a goal under the assumptions of some cases.
+///
+/// The facts at a leaf have numbers. The first ones are 2 > 0 and the assumptions of the cases.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
@@ -166,56 +141,7 @@ pub enum Node {
     /// A quantity, a polynomial of atoms, and proofs for the cases that it is positive and that it is not.
     Cases(Polynomial, Box<[Node; 2]>),
     /// A proof without further cases.
-    Leaf(Box<Leaf>),
-}
-
-/// A proof without cases. Its facts are 2 > 0, the assumptions of the cases, and then what follows from each
-/// part in this order: hypotheses, rises, orders, goal. A sign that these depend on is a fact before them.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Leaf {
-    /// The numbers of the hypotheses to use. An interval gives its symbol a value; any other one becomes a
-    /// fact. In a limit, all that mention its variable are listed.
-    pub hypotheses: Vec<usize>,
-    /// The functions that rise or fall from 0 on.
-    pub rises: Vec<Rise>,
-    /// The pairs a ≥ b whose roundings are compared, as the variables of the errors of a and b. The fact is
-    /// fl(a) ≥ fl(b).
-    pub orders: Vec<[usize; 2]>,
-    /// The reasons for the signs, in the order in which they are needed.
-    pub signs: Vec<Reason>,
-    /// The factors of each divisor. Their product is the numerator of the divisor, and each has a strict sign.
-    pub divisors: Vec<Vec<Polynomial>>,
-    /// For each rounded formula, in the order in which they are met, an earlier one with the same error.
-    pub roundings: Vec<Option<Same>>,
-    /// The translations of the absolute values in the order in which they are met.
-    pub sizes: Vec<AbsoluteValue>,
-}
-
-/// A polynomial whose sign is needed.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::proof) struct Question<'q> {
-    /// The polynomial.
-    pub of: &'q Polynomial,
-    /// The facts over which it is the numerator of a sum of formulas; none for any other polynomial.
-    pub den: &'q [usize],
-    /// Whether it is the numerator of a sum of formulas.
-    pub is_sum: bool,
-    /// Whether it decides between the branches of a minimum or positive part.
-    pub decides: bool,
-}
-
-/// The source of what a leaf uses: a proof, or a search for one. Formulas are given by their numbers.
-pub(in crate::proof) trait Source {
-    /// Returns the reason for the sign of a polynomial.
-    fn sign(&mut self, question: Question, state: &State) -> Option<Reason>;
-    /// Returns the factors of a divisor with this numerator.
-    fn divisor(&mut self, of: usize, value: &Polynomial, state: &State) -> Option<Vec<Polynomial>>;
-    /// Returns the earlier formula whose error a rounded formula has, if there is one.
-    fn rounding(&mut self, of: usize, value: &Quotient, state: &State) -> Option<Option<Same>>;
-    /// Returns the translation of the absolute value of a formula.
-    fn size(&mut self, of: usize, value: &Quotient, state: &State) -> Option<AbsoluteValue>;
+    Leaf(Vec<Step>),
 }
 
 /// The reason why a proof is refused.
@@ -238,35 +164,27 @@ pub enum CheckError {
 pub enum Refusal {
     /// A coefficient, power, sum, product or nesting exceeds its limit.
     TooLarge,
-    /// The proof lists too little.
-    Missing,
-    /// The proof lists more than it uses.
-    Unused,
     /// A number is not that of a fact, variable, formula or hypothesis.
     Unknown,
-    /// The two sides of a certificate differ, or a fact is about another quantity.
+    /// The two sides of a certificate differ.
     Identity,
     /// The sign of a form does not follow from its terms.
     Form,
-    /// The sign of a divisor, or of the left side of a certificate, is not strict.
+    /// The sign of a factor of a divisor, or of the left side of a certificate, is not strict.
     NotStrict,
-    /// The sums of exponents differ.
-    Exponents,
-    /// The product of the factors is not the divisor.
+    /// No fact states the sign of a quantity that decides about the value of a formula.
+    Sign,
+    /// No fact, or product of facts, is the divisor.
     Divisor,
-    /// A rounded formula is not a power of two times the other.
-    Rounding,
-    /// An absolute value is not that of an earlier formula.
-    Size,
-    /// The order of two rounded formulas is not known.
-    Order,
-    /// The mean value theorem does not apply.
-    Rise,
+    /// The exponential or absolute value of a formula is not an atom yet.
+    Name,
+    /// The facts do not state the premise of a law.
+    Law,
     /// The formula contains an operation that is not differentiable.
     NotDifferentiable,
     /// The limit does not follow from the degrees, or a hypothesis does not hold for all large values.
     Limit,
-    /// The sign is not the one to be proved.
+    /// The facts do not state what is to be proved.
     Goal,
 }
 
@@ -343,7 +261,7 @@ fn check_node(problem: &Problem, cases: &mut Vec<(Polynomial, Sign)>, node: &Nod
             if !on.has_only(|x| x < problem.table.atoms().len()) {
                 return Err(Refusal::Unknown);
             }
-            if cases.len() >= MAX_NESTING as usize {
+            if cases.len() >= MAX_NESTING {
                 return Err(Refusal::TooLarge);
             }
             for (node, sign) in both.iter().zip([Sign::Positive, Sign::NonPositive]) {
@@ -353,135 +271,10 @@ fn check_node(problem: &Problem, cases: &mut Vec<(Polynomial, Sign)>, node: &Nod
             }
             Ok(())
         }
-        Node::Leaf(leaf) => {
-            let mut translator = Translator::new(problem, List::of(leaf));
-            translator.leaf(leaf, cases)?;
-            if translator.source.is_empty() { Ok(()) } else { Err(Refusal::Unused) }
+        Node::Leaf(steps) => {
+            let mut state = State::new(problem, cases)?;
+            steps.iter().try_for_each(|step| state.apply(step))?;
+            if state.proves_goal()? { Ok(()) } else { Err(Refusal::Goal) }
         }
     }
-}
-
-/// The rest of the lists of a leaf.
-#[derive(Default)]
-pub(in crate::proof) struct List<'a> {
-    signs: Iter<'a, Reason>,
-    divisors: Iter<'a, Vec<Polynomial>>,
-    roundings: Iter<'a, Option<Same>>,
-    sizes: Iter<'a, AbsoluteValue>,
-}
-
-impl<'a> List<'a> {
-    /// Returns the lists of a leaf.
-    pub(in crate::proof) fn of(leaf: &'a Leaf) -> Self {
-        let Leaf { signs, divisors, roundings, sizes, .. } = leaf;
-        let (signs, divisors) = (signs.iter(), divisors.iter());
-        List { signs, divisors, roundings: roundings.iter(), sizes: sizes.iter() }
-    }
-
-    fn is_empty(&self) -> bool {
-        self.signs.len() + self.divisors.len() + self.roundings.len() + self.sizes.len() == 0
-    }
-}
-
-impl Source for List<'_> {
-    fn sign(&mut self, _: Question, _: &State) -> Option<Reason> {
-        self.signs.next().cloned()
-    }
-
-    fn divisor(&mut self, _: usize, _: &Polynomial, _: &State) -> Option<Vec<Polynomial>> {
-        self.divisors.next().cloned()
-    }
-
-    fn rounding(&mut self, _: usize, _: &Quotient, _: &State) -> Option<Option<Same>> {
-        self.roundings.next().cloned()
-    }
-
-    fn size(&mut self, _: usize, _: &Quotient, _: &State) -> Option<AbsoluteValue> {
-        self.sizes.next().copied()
-    }
-}
-
-impl<S: Source> Translator<'_, S> {
-    /// Checks the goal under the assumptions of cases.
-    pub(in crate::proof) fn leaf(&mut self, leaf: &Leaf, cases: &[(Polynomial, Sign)]) -> Checked<()> {
-        self.assume_cases(cases);
-        leaf.hypotheses.iter().try_for_each(|i| self.assume(*i))?;
-        self.conclude(leaf, cases)
-    }
-
-    /// Uses the assumptions of cases.
-    pub(in crate::proof) fn assume_cases(&mut self, cases: &[(Polynomial, Sign)]) {
-        for (case, sign) in cases {
-            let fact = self.state.add_fact(case.clone(), *sign);
-            self.state.assumed.push((None, fact));
-        }
-    }
-
-    /// Checks the goal after the hypotheses.
-    pub(in crate::proof) fn conclude(&mut self, leaf: &Leaf, cases: &[(Polynomial, Sign)]) -> Checked<()> {
-        leaf.rises.iter().try_for_each(|rise| self.rise(rise))?;
-        leaf.orders.iter().try_for_each(|errors| self.monotone(*errors))?;
-        match self.state.problem.proposition {
-            Proposition::Limit(of, by, to) => self.limit(of, by, to, cases),
-            proposition => self.goal(proposition),
-        }
-    }
-
-    /// Checks a goal that is not a limit.
-    fn goal(&mut self, proposition: &Proposition) -> Checked<()> {
-        let holds = match (proposition, &self.state.problem.goal[..]) {
-            (Proposition::Equal(..), [a, b]) => self.sign_of_sum(&[(1, *a), (-1, *b)], false)? == Sign::Zero,
-            (Proposition::Sign(relation, _), [of, ..]) => {
-                self.sign_of_sum(&[(1, *of)], false)?.implies((*relation).into())
-            }
-            (Proposition::Within(..), [of, bound]) => {
-                self.sign_of_sum(&[(1, *bound), (-1, *of)], false)?.implies(Sign::NonNegative)
-                    && self.sign_of_sum(&[(1, *bound), (1, *of)], false)?.implies(Sign::NonNegative)
-            }
-            (Proposition::Derivative(..), [of, is, derivative]) => {
-                self.value(*of)?;
-                self.sign_of_sum(&[(1, *derivative), (-1, *is)], false)? == Sign::Zero
-            }
-            _ => false,
-        };
-        if holds { Ok(()) } else { Err(Refusal::Goal) }
-    }
-
-    /// Checks the sign of a function by those of its start and its slope.
-    fn rise(&mut self, rise: &Rise) -> Checked<()> {
-        let problem = self.state.problem;
-        let x = match problem.table.atoms().get(rise.x) {
-            Some(Atom::Own(name)) if *name != PRECISION && !SCALES.contains(name) => *name,
-            _ => return Err(Refusal::Rise),
-        };
-        for ((proposition, assumed), node) in parts_of_rise(problem, rise, x)?.iter().zip(&rise.parts) {
-            let others = problem.hypotheses.iter().copied();
-            let others = others.filter(|h| !h.value.symbols().contains(x)).chain(assumed);
-            let part = Problem::new(proposition, others.collect())?.within(problem)?;
-            check_node(&part, &mut Vec::new(), node)?;
-        }
-        let at_x = self.state.signs.get(rise.x).copied().flatten();
-        let at_x = at_x.filter(|sign| sign.implies(Sign::NonNegative)).ok_or(Refusal::Rise)?;
-        let sign = Sign::from(rise.start).plus(at_x.times(rise.slope.into())).ok_or(Refusal::Rise)?;
-        self.state.add_fact(rise.of.clone(), sign);
-        Ok(())
-    }
-}
-
-/// Returns the propositions that the parts of a rise prove, each with an assumption about x.
-pub(in crate::proof) fn parts_of_rise(
-    problem: &Problem,
-    rise: &Rise,
-    x: &'static str,
-) -> Checked<[(Proposition, Option<Hypothesis>); 3]> {
-    let of = problem.table.to_tree(&rise.of)?;
-    let slope = derivative(&of, x)?;
-    let start = of.substitute(&[(x, Tree::from(0))]);
-    check_size([&of, &slope, &start].into_iter()).map_err(|_| Refusal::TooLarge)?;
-    let assumed = |relation| Some(Hypothesis::new(relation, Tree::symbol(x)));
-    Ok([
-        (Proposition::Derivative(of, x, slope.clone()), assumed(Relation::NonNegative)),
-        (Proposition::Sign(rise.start, start), None),
-        (Proposition::Sign(rise.slope, slope), assumed(Relation::Positive)),
-    ])
 }

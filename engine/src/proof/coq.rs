@@ -377,6 +377,13 @@ mod tests {
         assert_eq!(vanishes((-&a * &t * &t).exp()).unwrap(), unlike);
         let once = (-&a * &t).exp();
         assert_eq!(vanishes(&once * &once).unwrap(), unlike);
+        let later = |bound: Tree| {
+            let bound = Hypothesis::new(Relation::Positive, bound);
+            left_out(&limit("later", &a / &t, &t, 0, Rate::Equal(&a / &t)).assuming([&above[0], &bound]))
+        };
+        assert_eq!(later(&t - &a), None);
+        let other = "the variable of a limit has other hypotheses than lower bounds";
+        assert_eq!(later(&a * &t - Tree::from(1)).unwrap(), other);
     }
 
     #[test]

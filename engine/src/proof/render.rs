@@ -9,7 +9,7 @@ pub use summary::proof_summary;
 
 use self::lines::Lines;
 use super::check::Proof;
-use super::check::{Leaf, Node, Problem};
+use super::check::{Node, Problem, Step};
 #[cfg(feature = "serde")]
 use super::data::GoalProof;
 use crate::formula::claim::{MEMBERS, POWER};
@@ -112,7 +112,13 @@ impl<'a> ProofPrinter<'a> {
     fn format_proposition(&self, proposition: &Proposition) -> String {
         use Proposition::*;
         match proposition {
-            Equal(left, right) => format!("{} = {}", self.text(left), self.text(right)),
+            Equal(left, right) => match [left, right].map(|side| self.text(side)) {
+                [left, right] if left != right => format!("{left} = {right}"),
+                [number, _] if !number.contains(char::is_alphabetic) => {
+                    format!("it is {number} for all values")
+                }
+                [formula, _] => format!("both functions are {formula}"),
+            },
             Sign(relation, of) => format!("{} {relation} 0", self.text(of)),
             Within(of, bound) => format!("{} ≤ {}", self.text(&of.abs()), self.text(bound)),
             Derivative(of, x, is) => format!("∂/∂{x} [{}] = {}", self.text(of), self.text(is)),
@@ -128,8 +134,11 @@ impl<'a> ProofPrinter<'a> {
         let mut all = Vec::new();
         for (goal, node) in proof.statement().goals().iter().zip(proof.goals()) {
             let hypotheses = proof.statement().hypotheses_for(goal.role);
-            let used = leaves(node).into_iter().flat_map(|leaf| &leaf.hypotheses);
-            for hypothesis in used.filter_map(|i| hypotheses.get(*i)) {
+            let used = leaves(node).into_iter().flatten().filter_map(|step| match step {
+                Step::Assume(i) => hypotheses.get(*i),
+                _ => None,
+            });
+            for hypothesis in used {
                 if !all.contains(*hypothesis) {
                     all.push((*hypothesis).clone());
                 }
@@ -212,8 +221,9 @@ impl<'a> ProofPrinter<'a> {
         let single = statement.goals().len() == 1;
         for (Goal { part, role, proposition }, node) in statement.goals().iter().zip(proof.goals()) {
             let problem = Problem::new(proposition, statement.hypotheses_for(*role));
-            let goal_lines = problem.map(|problem| Lines::new(self, &problem).node(node, &mut Vec::new()));
-            let goal_lines = goal_lines.unwrap_or_default();
+            let goal_lines =
+                problem.and_then(|problem| Lines::new(self, &problem).node(node, &mut Vec::new()));
+            let goal_lines = goal_lines.unwrap_or_else(|reason| vec![reason.to_string()]);
             if single {
                 lines.extend(goal_lines);
             } else {
@@ -256,9 +266,9 @@ impl<'a> ProofPrinter<'a> {
 }
 
 /// Returns the leaves of a proof.
-fn leaves(node: &Node) -> Vec<&Leaf> {
+fn leaves(node: &Node) -> Vec<&[Step]> {
     match node {
-        Node::Leaf(leaf) => vec![leaf],
+        Node::Leaf(steps) => vec![steps],
         Node::Cases(_, both) => both.iter().flat_map(leaves).collect(),
     }
 }

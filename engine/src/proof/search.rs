@@ -1,8 +1,8 @@
 //! The search for proofs.
 //!
-//! The checker's translator of formulas runs with a [search](source) in the place of a proof: whatever it asks for is
-//! found and listed. Signs are found by [six rules](rules), and expressed by the symbols of the statement as
-//! identities that the [checker](super::check) expands. Nothing here is trusted.
+//! Before the checker translates a formula, the [search for a leaf](leaf) lists the steps that this requires. Signs are
+//! found by [rules](rules), and expressed by the symbols of the statement as identities that the
+//! [checker](super::check) expands. Nothing here is trusted.
 //!
 //! A hypothesis v > 0 that does not follow from others, and is more than the sign of a symbol, becomes v = s for
 //! a new symbol s > 0, the *slack variable*: one monomial of v, the *pivot*, is replaced wherever it occurs by
@@ -10,7 +10,8 @@
 //! (a b + c y − s)/c, where c ≠ 0 is known.) Where no pivot is found, v may be divided by a positive symbol: for
 //! k > 0, the hypothesis 1 − k > 0 is (1 − k)/k = s > 0, and k is 1/(1 + s). A hypothesis h > 0 without a pivot
 //! is retained: where no rule finds the sign of v, the rules may find those of m and of v − m h, for a quotient m
-//! that makes a symbol cancel. The translator itself replaces a symbol in an interval, before what mentions the symbol.
+//! that makes a symbol cancel; so are the laws of exponentials. The checker itself replaces a symbol in an interval,
+//! before what mentions the symbol.
 //!
 //! If the sign that decides a branch is not found, both cases of its quantity are proved. For an absolute value
 //! |x| no cases are needed at first: x is replaced by t |x| for some −1 ≤ t ≤ 1.
@@ -25,19 +26,17 @@ pub(in crate::proof) mod error;
 mod finder;
 mod form;
 mod knowledge;
+mod leaf;
+mod limit;
 mod number;
 pub(in crate::proof) mod rules;
-mod source;
 pub(in crate::proof) mod symbol;
 #[cfg(test)]
 mod tests;
 
 pub use self::error::{ProofError, Quantity};
 
-use super::check::{
-    self, Atom, Leaf, Node, Polynomial, Premise, Problem, Proof, Refusal, Rise, Sign, State, Translator,
-    check, parts_of_rise,
-};
+use super::check::{self, Node, Polynomial, Premise, Problem, Proof, Refusal, Sign, State, check};
 use super::effort::MAX_EFFORT;
 use crate::formula::statement::{Proposition, Statement};
 use crate::formula::{Hypothesis, Relation};
@@ -45,8 +44,7 @@ use crate::number::Tree;
 use crate::number::tree::Op;
 use algebra::{Poly, Ratio, UNKNOWN};
 use dictionary::integral;
-use knowledge::{AssumedFact, Knowledge};
-use source::Search;
+use leaf::Search;
 use std::collections::BTreeSet;
 
 /// The reason why a search ended without a leaf.
@@ -54,8 +52,6 @@ use std::collections::BTreeSet;
 pub enum Failure {
     /// The branch of a positive part, minimum or absolute value is undecided by this quantity.
     Branch(Quantity),
-    /// The sign of this function is required; its parts are still to be proved.
-    Rise(Box<Rise>),
     /// The reason for which no proof is found.
     Error(ProofError),
     /// A sign that was found could not be expressed by certificates.
@@ -86,7 +82,6 @@ impl From<Failure> for ProofError {
     fn from(failure: Failure) -> Self {
         match failure {
             Failure::Branch(value) => ProofError::UndecidedBranch(value),
-            Failure::Rise(_) => ProofError::NotExpressed("it rests on the slopes of too many functions"),
             Failure::Error(reason) => reason,
             Failure::NotExpressed(reason) => ProofError::NotExpressed(reason),
             Failure::Refused(Refusal::NotDifferentiable) => ProofError::NotDifferentiable,
@@ -98,9 +93,6 @@ impl From<Failure> for ProofError {
 
 /// Maximum number of nested case distinctions.
 const MAX_NESTED_CASES: usize = 4;
-
-/// Maximum number of functions at a leaf whose sign follows from their slope.
-const MAX_RISES: usize = 4;
 
 /// Proves a statement.
 ///
@@ -189,30 +181,10 @@ struct Attempt<'a> {
 impl<'a> Attempt<'a> {
     /// Returns a proof under the assumptions of these decisions.
     fn certify(&self, decisions: &[Decision]) -> Result<Node, Failure> {
-        let mut rises = Vec::new();
-        let (search, failure) = loop {
-            let leaf = Leaf { rises: rises.clone(), ..Leaf::default() };
-            let mut translator = Translator::new(self.problem, self.search(leaf));
-            let checked = self.read(&mut translator, decisions);
-            let Translator { state, source: mut search, .. } = translator;
-            match (checked, search.failure.take()) {
-                (Ok(()), _) => return Ok(Node::Leaf(search.leaf.into())),
-                (Err(_), Some(Failure::Rise(rise))) if rises.len() < MAX_RISES => {
-                    rises.push(self.with_parts(*rise)?);
-                }
-                (Err(reason), None) => {
-                    let reason = self.refused(&search, &state, reason);
-                    break (search, reason);
-                }
-                (Err(_), Some(Failure::Error(ProofError::UnknownSign(..))))
-                    if self.problem.variable().is_some()
-                        && search.position == self.problem.hypotheses.len() =>
-                {
-                    let reason = self.refused(&search, &state, Failure::from(Refusal::Limit));
-                    break (search, reason);
-                }
-                (Err(_), Some(failure)) => break (search, failure),
-            }
+        let mut search = Search::new(self.problem, decisions)?;
+        let failure = match self.read(&mut search, decisions) {
+            Ok(()) => return Ok(Node::Leaf(search.proof.steps)),
+            Err(failure) => self.explained(&search, failure),
         };
         let script = [decisions, &search.sizes].concat();
         let found = match &failure {
@@ -229,20 +201,26 @@ impl<'a> Attempt<'a> {
         })
     }
 
-    /// Returns the reason for which the checker refuses what the search found.
-    fn refused(&self, search: &Search, state: &State, reason: Failure) -> Failure {
-        if !matches!(reason, Failure::Refused(Refusal::Goal | Refusal::Limit)) {
-            return reason;
-        }
+    /// Returns the reason for which a goal does not follow from the steps found.
+    fn explained(&self, search: &Search, failure: Failure) -> Failure {
+        let is_at_end = search.position == self.problem.hypotheses.len();
         let is_limit = self.problem.variable().is_some();
-        let required = if is_limit { state.value(self.problem.goal[0]) } else { search.required.as_ref() };
-        let Some(required) = required else { return reason };
-        let value = search.known.reduced_quotient(required, state);
+        let required = match failure {
+            Failure::Error(ProofError::UnknownSign(_)) | Failure::Refused(Refusal::Limit)
+                if is_limit && is_at_end =>
+            {
+                search.proof.state.clone().value(self.problem.goal[0]).ok()
+            }
+            Failure::Refused(Refusal::Goal) => search.required.clone(),
+            _ => None,
+        };
+        let Some(required) = required else { return failure };
+        let value = search.known.reduced_quotient(&required, &search.proof.state);
         let quantity = search.known.quantity(value.clone());
         match search.known.sign(value) {
             _ if is_limit => ProofError::UnknownLimit(quantity).into(),
             Some(signed) => ProofError::WrongSign(quantity, signed.sign()).into(),
-            None => reason,
+            None => failure,
         }
     }
 
@@ -251,7 +229,7 @@ impl<'a> Attempt<'a> {
         if script.iter().filter_map(case).count() >= MAX_NESTED_CASES {
             return Err(Failure::Branch(search.known.quantity(value.clone())));
         }
-        let (known, state) = (&search.known, check::State::new(self.problem));
+        let (known, state) = (&search.known, State::new(self.problem, &[])?);
         let deciding = known.context.sign_numerator(value);
         let original = known.original(&deciding.clone().into());
         let (on, _) = integral(original.num(), original.num());
@@ -267,55 +245,30 @@ impl<'a> Attempt<'a> {
         Ok(Node::Cases(on, both.into()))
     }
 
-    /// Returns a search without assumptions.
-    fn search(&self, mut leaf: Leaf) -> Search<'a> {
-        let known = Knowledge::new(self.problem);
-        leaf.orders = self.orders();
-        let is_ordered = !leaf.orders.is_empty();
-        let (sizes, failure, required) = Default::default();
-        Search { known, leaf, sizes, is_ordered, position: 0, failure, required }
-    }
-
-    /// Lets the translator check the goal, and lists the hypotheses that it uses.
-    fn read(
-        &self,
-        translator: &mut Translator<'a, Search<'a>>,
-        decisions: &[Decision],
-    ) -> Result<(), Failure> {
-        let cases: Vec<_> = decisions.iter().filter_map(case).collect();
-        translator.assume_cases(&cases);
+    /// Lists the steps to the goal.
+    fn read(&self, search: &mut Search<'a>, decisions: &[Decision]) -> Result<(), Failure> {
         let (order, mut read) = (self.order(), BTreeSet::new());
         for (position, i) in order.iter().enumerate() {
-            translator.source.follow(position, decisions);
-            let hypothesis = self.problem.hypotheses[*i];
-            if hypothesis.interval().is_some_and(|(x, ..)| !read.insert(x)) {
-                continue;
-            }
-            translator
-                .assume(*i)
-                .map_err(|reason| self.not_assumed(*i, reason, &mut translator.source.failure))?;
-            translator.source.leaf.hypotheses.push(*i);
-            if hypothesis.interval().is_none() {
-                let of = translator.value(self.problem.values[*i])?;
-                let value = translator.source.known.ratio(&of, &translator.state);
-                let (fact, scale) = (translator.state.facts.iter().len() - 1, Poly::constant(1).into());
-                translator.source.known.assume(hypothesis, value, AssumedFact { fact, den: of.den, scale });
+            search.follow(position, decisions);
+            let interval = self.problem.hypotheses[*i].interval();
+            if interval.is_none_or(|(x, ..)| read.insert(x)) {
+                search.assume(*i).map_err(|reason| self.not_assumed(*i, reason))?;
             }
         }
-        translator.source.follow(order.len(), decisions);
-        let Leaf { rises, orders, .. } = &translator.source.leaf;
-        let rest = Leaf { rises: rises.clone(), orders: orders.clone(), ..Leaf::default() };
-        translator.conclude(&rest, &cases)?;
-        Ok(())
+        search.follow(order.len(), decisions);
+        self.orders().into_iter().try_for_each(|[a, b]| search.order(a, b))?;
+        search.goal()
     }
 
-    /// Returns the reason for which a hypothesis is not used. One on the variable of a limit is named, unless cases
-    /// or a rise may still help.
-    fn not_assumed(&self, i: usize, reason: Refusal, found: &mut Option<Failure>) -> Failure {
-        if self.problem.mentions_variable(i) && matches!(found, None | Some(Failure::Error(_))) {
-            *found = Some(ProofError::EndingHypothesis(self.problem.hypotheses[i].value.clone()).into());
+    /// Returns the reason for which a hypothesis is not used. One on the variable of a limit is named, unless cases may
+    /// still help.
+    fn not_assumed(&self, i: usize, reason: Failure) -> Failure {
+        match reason {
+            Failure::Error(_) | Failure::Refused(_) if self.problem.mentions_variable(i) => {
+                ProofError::EndingHypothesis(self.problem.hypotheses[i].value.clone()).into()
+            }
+            reason => reason,
         }
-        reason.into()
     }
 
     /// Returns the numbers of the hypotheses: intervals before what mentions their symbols, and those on the
@@ -341,30 +294,8 @@ impl<'a> Attempt<'a> {
         {
             collect_orders(a, b, &mut pairs);
         }
-        pairs.into_iter().filter_map(|(a, b)| Some([self.error(a)?, self.error(b)?])).collect()
-    }
-
-    /// Returns the variable of the error of a rounded formula.
-    fn error(&self, of: &Tree) -> Option<usize> {
         let table = &self.problem.table;
-        table.variable(Atom::Error(table.find(of).ok()?)).ok()
-    }
-
-    /// Adds the proofs of its parts to a function that rises.
-    fn with_parts(&self, mut rise: Rise) -> Result<Rise, Failure> {
-        let problem = self.problem;
-        let Some(Atom::Own(x)) = problem.table.atoms().get(rise.x) else {
-            return Err("the parts of a rise".into());
-        };
-        let mut parts = Vec::new();
-        for (proposition, assumed) in parts_of_rise(problem, &rise, x)?.iter() {
-            let others = problem.hypotheses.iter().copied();
-            let others = others.filter(|other| !other.value.symbols().contains(x)).chain(assumed);
-            let part = Problem::new(proposition, others.collect())?.within(problem)?;
-            parts.push(Attempt { problem: &part }.certify(&[])?);
-        }
-        rise.parts = <[Node; 3]>::try_from(parts).map_err(|_| "the parts of a rise")?;
-        Ok(rise)
+        pairs.into_iter().filter_map(|(a, b)| Some([table.find(a).ok()?, table.find(b).ok()?])).collect()
     }
 }
 
@@ -386,8 +317,8 @@ fn collect_orders<'t>(a: &'t Tree, b: &'t Tree, all: &mut Vec<(&'t Tree, &'t Tre
         return;
     }
     match (a.op(), b.op()) {
-        (Rounded(a), Rounded(b)) => {
-            collect_orders(a, b, all);
+        (Rounded(c), Rounded(d)) => {
+            collect_orders(c, d, all);
             all.push((a, b));
         }
         (PositivePart(a), PositivePart(b)) => collect_orders(a, b, all),

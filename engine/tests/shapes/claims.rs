@@ -49,6 +49,8 @@ pub fn claims() -> Vec<Statement> {
             .assuming([&lens_f, &lens_g, &shorter]),
         limit("far-side", one() / (one() / &f + one() / &g), &g, &f, Rate::Equal(-(&f * &f / (&g + &f))))
             .assuming([&lens_f, &lens_g]),
+        limit("beyond", &f * &g / (&g - &f), &g, &f, Rate::Equal(&f * &f / (&g - &f)))
+            .assuming([&lens_f, &shorter]),
         limit(
             "with-constant",
             (-&a).exp() * &g / (&g + &f),
@@ -165,8 +167,6 @@ pub fn claims() -> Vec<Statement> {
         within("exponential", once(&(one() / a.exp())), (-&a).exp() / &n).assuming([&stiff_a]),
         equal("exponential-exact", one() / (one() / x.exp()), x.exp()),
         positive("slope-divisor", one() / (a.exp() - &a - one())).assuming([&stiff_a]),
-        positive("slope-of-slope", (&a + &a).exp() - Tree::int(2) * &a * a.exp() - one())
-            .assuming([&stiff_a]),
         positive("slope-exact", a.exp() - &a - one()).assuming([&stiff_a]),
         positive("bits", &n - Tree::int(3)).assuming([&at_least(&(&n - Tree::int(4)))]),
         within("both-signs", once(&(&a / (&f - &g) + &a / (&g - &f) + &a)), &a / &n)

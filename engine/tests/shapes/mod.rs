@@ -9,11 +9,10 @@ mod coqc;
 mod springs;
 
 use coqc::{accepts, named, of_claims};
-use provable::formula::claim::PRECISION;
-use provable::formula::{Formula, Hypothesis, Registry, Relation};
-use provable::number::{Field, Tree, symbols};
+use provable::formula::{Formula, Registry};
+use provable::number::{Field, Tree};
 use provable::proof::coq::{Development, LocatedClaim};
-use provable::proof::{RoundingBound, prove, rounding_bound};
+use provable::proof::prove;
 
 #[test]
 #[ignore = "requires Coq"]
@@ -24,30 +23,6 @@ fn coq_accepts_the_springs_in_series() {
         of_claims(&development.files()).flat_map(|f| named(&f.text, "Theorem")).map(String::from).collect();
     assert_eq!((theorems.len(), development.omitted().len()), (claims.len(), 0));
     accepts("springs", "Springs", &development);
-}
-
-fn bounds() -> [RoundingBound; 4] {
-    let [x, y] = symbols(["x", "y"]);
-    let one = Tree::int(1);
-    let intervals = [Hypothesis::between(&x, -2, 3), Hypothesis::between(&y, 1, 4)];
-    let precision = Hypothesis::new(Relation::NonNegative, Tree::symbol(PRECISION) - Tree::int(1 << 11));
-    let assumed = [&intervals[..], &[precision]].concat();
-    let all = [&x * &y - &x, (&x + &y) * (&x - &y), &one / (&y + &one), (&x - &one) / (&y * &y)];
-    all.map(|of| rounding_bound(&of, &one, &assumed).unwrap())
-}
-
-/// Chains of computed quantities with sharp bounds.
-#[test]
-#[ignore = "requires Coq"]
-fn coq_accepts_bounds_of_rounding_errors() {
-    let bounds = bounds();
-    let registry = Registry::new(&["x", "y"], Vec::new());
-    let claims = bounds.iter().map(|bound| bound.proof().statement());
-    let placed = claims.zip(["product", "sums", "quotient", "fraction"]);
-    let placed = placed.map(|(claim, section)| LocatedClaim { claim, section, functions: &[] });
-    let development = Development::new("Bounds", &registry, placed);
-    assert!(development.omitted().is_empty(), "{:?}", development.omitted());
-    accepts("bounds", "Bounds", &development);
 }
 
 #[test]
@@ -67,12 +42,12 @@ fn coq_accepts_divisors_of_any_shape() {
 fn coq_accepts_symbols_of_any_name() {
     let names = [
         "a", "b", "d", "e", "f", "g", "i", "k", "n", "o", "p", "r", "s", "t", "u", "v", "w", "x", "y", "z",
-        "C", "D", "E", "F", "H1", "I", "K", "M", "N", "O", "P", "Q", "R", "S", "X", "Known", "Rmin", "bpow",
+        "C", "D", "E", "F", "H1", "I", "K", "M", "N", "O", "P", "Q", "R", "S", "X", "Shown", "Rmin", "bpow",
         "choice", "exp", "fl", "identity", "is_lim", "prec", "s1", "tt",
     ];
     let claims: Vec<_> = names.chunks(6).flat_map(claims::about).collect();
     let formulas =
-        ["two", "Known", "same::size", "exp"].map(|name| Formula::new(name, "", &[], Tree::int(2)));
+        ["two", "Shown", "same::size", "exp"].map(|name| Formula::new(name, "", &[], Tree::int(2)));
     let registry = Registry::new(&[], formulas.into());
     let placed = claims.iter().map(|claim| LocatedClaim { claim, section: claim.equation(), functions: &[] });
     let development = Development::new("Names", &registry, placed);
@@ -86,9 +61,4 @@ fn claims_of_many_shapes_are_proved() {
     let open = outcomes.filter_map(|(name, outcome)| Some(format!("{name}: {}", outcome.err()?)));
     let open: Vec<_> = open.collect();
     assert!(open.is_empty(), "{open:#?}");
-}
-
-#[test]
-fn bounds_of_rounding_errors_are_proved() {
-    assert!(bounds().iter().all(|bound| bound.constant() > 0.0));
 }

@@ -3,8 +3,7 @@
 use super::polynomial::{MAX_VARIABLES, Polynomial, Powers};
 use super::sign::Sign;
 use super::state::State;
-use super::{Certificate, Checked, Known, MAX_NESTING, Refusal};
-use crate::proof::effort::Effort;
+use super::{Certificate, Checked, Refusal};
 
 /// The knowledge about a variable of a form.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,116 +19,45 @@ enum Kind {
 impl State<'_> {
     /// Returns the sign of a polynomial f with l f = r, for the forms l and r of a certificate.
     pub fn certify(&self, of: &Polynomial, certificate: &Certificate) -> Checked<Sign> {
-        self.certify_nested(of, certificate, MAX_NESTING)
-    }
-
-    fn certify_nested(&self, of: &Polynomial, certificate: &Certificate, nesting: u32) -> Checked<Sign> {
-        let (kinds, values) = self.quantities(of, certificate, nesting)?;
+        let kinds = self.kinds(&certificate.known)?;
         let factor = sign_of_form(&certificate.left, &kinds)?;
         if !factor.is_strict() {
             return Err(Refusal::NotStrict);
         }
         let sign = sign_of_form(&certificate.right, &kinds)?.times(factor);
-        let [left, right] = self.sides(of, certificate, &values)?;
+        let [left, right] = self.sides(of, certificate)?;
         if left == right { Ok(sign) } else { Err(Refusal::Identity) }
     }
 
-    /// Returns l f − r, which is 0 for a correct certificate.
-    pub fn difference(&self, of: &Polynomial, certificate: &Certificate) -> Checked<Polynomial> {
-        let (_, values) = self.quantities(of, certificate, MAX_NESTING)?;
-        let [left, right] = self.sides(of, certificate, &values)?;
-        left.plus_multiple(-1, &right, &self.facts.effort)
+    /// Returns what is known of the variables of a certificate: of atoms and facts.
+    fn kinds(&self, known: &[usize]) -> Checked<Vec<Kind>> {
+        let atoms = self.signs.iter().enumerate().map(|(x, sign)| match sign {
+            _ if self.problem.table.is_unit(x) => Ok(Kind::Unit),
+            Some(sign) => Ok(Kind::Signed(*sign)),
+            None => Ok(Kind::Free),
+        });
+        let facts = known.iter().map(|i| Ok(Kind::Signed(self.facts.get(*i)?.1)));
+        atoms.chain(facts).collect()
     }
 
-    /// Returns what is known of the variables of a certificate, and the values of its quantities.
-    fn quantities(
-        &self,
-        of: &Polynomial,
-        certificate: &Certificate,
-        nesting: u32,
-    ) -> Checked<(Vec<Kind>, Vec<Polynomial>)> {
+    /// Returns l f and r as polynomials of atoms.
+    pub fn sides(&self, of: &Polynomial, certificate: &Certificate) -> Checked<[Polynomial; 2]> {
         let Certificate { known, left, right } = certificate;
-        let first = self.problem.table.atoms().len();
+        let (first, effort) = (self.problem.table.atoms().len(), &self.facts.effort);
         let count = first.saturating_add(known.len());
         if count > MAX_VARIABLES {
             return Err(Refusal::TooLarge);
         }
-        let mut kinds: Vec<_> = (0..first).map(|x| self.kind(x)).collect();
-        let mut values = Vec::with_capacity(known.len());
-        for quantity in known {
-            let (value, kind) = self.known(quantity, nesting)?;
-            kinds.push(kind);
-            values.push(value);
+        if !of.has_only(|x| x < first) || [left, right].into_iter().any(|form| !form.has_only(|x| x < count))
+        {
+            return Err(Refusal::Unknown);
         }
-        // Quantities that form a variable of a form do not contain such variables themselves.
-        let is_known = values.iter().chain([of]).all(|value| value.has_only(|x| x < first))
-            && [left, right].into_iter().all(|form| form.has_only(|x| x < count));
-        if is_known { Ok((kinds, values)) } else { Err(Refusal::Unknown) }
-    }
-
-    /// Returns l f and r as polynomials of atoms.
-    fn sides(
-        &self,
-        of: &Polynomial,
-        certificate: &Certificate,
-        values: &[Polynomial],
-    ) -> Checked<[Polynomial; 2]> {
-        let first = self.problem.table.atoms().len();
-        let effort = &self.facts.effort;
-        let left = expand(&certificate.left, first, values, effort)?.times(of, effort)?;
-        Ok([left, expand(&certificate.right, first, values, effort)?])
-    }
-
-    fn kind(&self, x: usize) -> Kind {
-        match self.signs[x] {
-            _ if self.problem.table.is_unit(x) => Kind::Unit,
-            Some(sign) => Kind::Signed(sign),
-            None => Kind::Free,
-        }
-    }
-
-    /// Returns a quantity and what is known about it.
-    fn known(&self, quantity: &Known, nesting: u32) -> Checked<(Polynomial, Kind)> {
-        Ok(match quantity {
-            Known::Fact(i) => {
-                let (of, sign) = self.facts.get(*i)?;
-                (of.clone(), Kind::Signed(*sign))
-            }
-            Known::Value(of) => (of.clone(), Kind::Free),
-            Known::Lemma(lemma) => {
-                let nesting = nesting.checked_sub(1).ok_or(Refusal::TooLarge)?;
-                let sign = self.certify_nested(&lemma.0, &lemma.1, nesting)?;
-                (lemma.0.clone(), Kind::Signed(sign))
-            }
-            Known::Exponents { left, right } => {
-                (self.difference_of_exponentials(left, right)?, Kind::Signed(Sign::Zero))
-            }
-        })
-    }
-
-    /// Returns the difference of two products of exponentials whose exponents have the same sum.
-    fn difference_of_exponentials(&self, left: &[usize], right: &[usize]) -> Checked<Polynomial> {
-        let sum = |all: &[usize]| {
-            all.iter().try_fold(Polynomial::zero().into(), |sum, x| {
-                self.facts.sum(&sum, 1, self.exponent(*x).ok_or(Refusal::Unknown)?)
-            })
+        let expand = |form: &Polynomial| {
+            let mut facts = known.iter().zip(first..);
+            facts.try_fold(form.clone(), |form, (i, x)| form.replace(x, &self.facts.get(*i)?.0, effort))
         };
-        if !self.facts.are_equal(&sum(left)?, &sum(right)?)? {
-            return Err(Refusal::Exponents);
-        }
-        let product = |all: &[usize]| {
-            all.iter().try_fold(Polynomial::constant(1), |product, x| {
-                product.times(&Polynomial::variable(*x)?, &self.facts.effort)
-            })
-        };
-        product(left)?.plus_multiple(-1, &product(right)?, &self.facts.effort)
+        Ok([expand(left)?.times(of, effort)?, expand(right)?])
     }
-}
-
-/// Returns a form as a polynomial of atoms.
-fn expand(form: &Polynomial, first: usize, values: &[Polynomial], effort: &Effort) -> Checked<Polynomial> {
-    let mut values = values.iter().enumerate();
-    values.try_fold(form.clone(), |form, (i, value)| form.replace(first + i, value, effort))
 }
 
 /// Returns the sign of a form, term by term.

@@ -8,9 +8,8 @@
 //! A fact is added by
 //!
 //! - a case: its quantity must not depend on x;
-//! - a hypothesis: if it mentions x, [`Translator::holds_later`] comes before it;
-//! - a sign, a divisor or an absolute value: it follows, at each x, from facts that are valid there;
-//! - a rise or an order: likewise, and from hypotheses, all of which have been examined when the limit is accepted.
+//! - a hypothesis: if it mentions x, [`State::holds_later`] comes before it;
+//! - any other step: it follows, at each x, from facts that are valid there.
 //!
 //! A translated formula has the value that follows from the facts of that time, among them the branch of a minimum. An
 //! interval lets all formulas be translated again, from more facts. A sign that is shown of a quantity without x is
@@ -19,45 +18,36 @@
 use super::polynomial::Polynomial;
 use super::quotient::Quotient;
 use super::sign::Sign;
-use super::state::Translator;
+use super::state::State;
 use super::table::Atom;
-use super::{Checked, Refusal, Source};
+use super::{Checked, Refusal};
 use crate::formula::Relation;
-use crate::number::Tree;
 use std::cmp::Ordering;
 
-impl<S: Source> Translator<'_, S> {
-    /// Checks that `of` tends to `to` as a symbol tends to infinity.
-    pub fn limit(
-        &mut self,
-        of: &Tree,
-        by: &'static str,
-        to: &Tree,
-        cases: &[(Polynomial, Sign)],
-    ) -> Checked<()> {
-        let (of, to) = (self.translate(of)?, self.translate(to)?);
-        let problem = self.state.problem;
+impl State<'_> {
+    /// Returns `true` if a formula tends to another one as a symbol tends to infinity.
+    pub fn has_limit(&mut self, of: usize, by: &'static str, to: usize) -> Checked<bool> {
+        let (of, to) = (self.value(of)?, self.value(to)?);
+        let problem = self.problem;
         let x = problem.table.variable(Atom::Own(by))?;
         let mut later = (0..problem.hypotheses.len()).filter(|i| problem.mentions_variable(*i));
-        let is_examined = later.all(|i| self.state.assumed.iter().any(|(known, _)| *known == Some(i)));
-        if !is_examined || cases.iter().any(|(case, _)| !case.has_only(|y| !problem.depends(y, by))) {
+        if !later.all(|i| self.assumed.contains(&i)) {
             return Err(Refusal::Limit);
         }
         let found = self.limit_of(&of, x)?;
-        let difference = self.state.facts.sum(&found, -1, &to)?;
-        let (sign, _) = self.sign_of_part(&difference.num)?;
-        if sign == Sign::Zero { Ok(()) } else { Err(Refusal::Goal) }
+        let difference = self.facts.sum(&found, -1, &to)?;
+        Ok(self.facts.have(&difference, Sign::Zero))
     }
 
     /// Returns by how much the degree of the numerator in the variable exceeds that of the denominator, and
     /// the leading coefficients of the numerator and of the factors of the denominator. They must not depend
     /// on the variable in any other way.
-    fn leading(&self, of: &Quotient, x: usize) -> Checked<(i32, Vec<Polynomial>)> {
+    pub fn leading(&self, of: &Quotient, x: usize) -> Checked<(i32, Vec<Polynomial>)> {
         let (mut excess, mut coefficients) = (0, Vec::with_capacity(1 + of.den.len()));
-        let den = of.den.iter().map(|i| Ok(&self.state.facts.get(*i)?.0));
+        let den = of.den.iter().map(|i| Ok(&self.facts.get(*i)?.0));
         for part in [Ok(&of.num)].into_iter().chain(den) {
             let (degree, leading) = part?.leading(x);
-            if !part?.has_only(|y| x == y || !self.state.problem.depends_on(y, x)) {
+            if !part?.has_only(|y| x == y || !self.problem.depends_on(y, x)) {
                 return Err(Refusal::Limit);
             }
             excess += if coefficients.is_empty() { i32::from(degree) } else { -i32::from(degree) };
@@ -66,28 +56,33 @@ impl<S: Source> Translator<'_, S> {
         Ok((excess, coefficients))
     }
 
-    fn sign_of_product(&mut self, of: &[Polynomial]) -> Checked<Sign> {
-        of.iter().try_fold(Sign::Positive, |sign, factor| Ok(sign.times(self.sign_of_part(factor)?.0)))
+    /// Returns the numbers of the facts that these quantities are not 0.
+    fn strict(&self, all: &[Polynomial]) -> Checked<Vec<usize>> {
+        all.iter().map(|of| self.facts.strict(of).ok_or(Refusal::Limit)).collect()
+    }
+
+    /// Returns the strict sign of a product.
+    fn sign_of_leading(&self, coefficients: &[Polynomial]) -> Checked<Sign> {
+        self.facts.sign_of_product(&self.strict(coefficients)?)
     }
 
     /// Checks that a hypothesis that mentions the variable of the limit holds for all sufficiently large values.
     pub fn holds_later(&mut self, i: usize, by: &'static str) -> Checked<()> {
-        let problem = self.state.problem;
+        let problem = self.problem;
         if problem.hypotheses[i].interval().is_some() || problem.hypotheses[i].relation == Relation::Zero {
             return Err(Refusal::Limit);
         }
         let value = self.value(problem.values[i])?;
         let (_, coefficients) = self.leading(&value, problem.table.variable(Atom::Own(by))?)?;
-        if self.sign_of_product(&coefficients)? == Sign::Positive { Ok(()) } else { Err(Refusal::Limit) }
+        if self.sign_of_leading(&coefficients)? == Sign::Positive { Ok(()) } else { Err(Refusal::Limit) }
     }
 
     /// Returns the limit of a quotient: 0 if the denominator has the higher degree, and the quotient of the
     /// leading coefficients if the degrees are equal.
-    fn limit_of(&mut self, of: &Quotient, x: usize) -> Checked<Quotient> {
+    pub fn limit_of(&self, of: &Quotient, x: usize) -> Checked<Quotient> {
         let num = self.without_vanishing_terms(&of.num, x)?;
         let (excess, mut coefficients) = self.leading(&Quotient { num, den: of.den.clone() }, x)?;
-        let den: Vec<_> =
-            coefficients.split_off(1).iter().map(|of| self.strict(of)).collect::<Checked<_>>()?;
+        let den = self.strict(&coefficients.split_off(1))?;
         match excess.cmp(&0) {
             Ordering::Less => Ok(Polynomial::zero().into()),
             Ordering::Equal => Ok(Quotient::new(coefficients.swap_remove(0), den)),
@@ -108,13 +103,13 @@ impl<S: Source> Translator<'_, S> {
     /// - an absolute value that depends on x: it is refused, because it may grow faster than any power;
     /// - its factor, or the error or parameter of a quantity that depends on x: they are between −1 and 1, but
     ///   are refused like the absolute value.
-    fn without_vanishing_terms(&mut self, of: &Polynomial, x: usize) -> Checked<Polynomial> {
-        let (mut rest, problem) = (of.clone(), self.state.problem);
+    pub fn without_vanishing_terms(&self, of: &Polynomial, x: usize) -> Checked<Polynomial> {
+        let (mut rest, problem) = (of.clone(), self.problem);
         let varies = |y: &usize| *y != x && of.degree(*y) > 0 && problem.depends_on(*y, x);
         for y in (0..problem.table.atoms().len()).filter(varies) {
-            let exponent = self.state.exponent(y).ok_or(Refusal::Limit)?.clone();
+            let exponent = self.exponent(y).ok_or(Refusal::Limit)?.clone();
             let (excess, coefficients) = self.leading(&exponent, x)?;
-            if excess <= 0 || self.sign_of_product(&coefficients)? != Sign::Negative {
+            if excess <= 0 || self.sign_of_leading(&coefficients)? != Sign::Negative {
                 return Err(Refusal::Limit);
             }
             rest = rest.coefficient(y, 0);

@@ -59,10 +59,9 @@ impl Facts {
         Facts { all: Vec::new(), effort }
     }
 
-    /// Adds a fact and returns its number.
-    pub fn add(&mut self, of: Polynomial, sign: Sign) -> usize {
+    /// Adds a fact.
+    pub fn add(&mut self, of: Polynomial, sign: Sign) {
         self.all.push((of, sign));
-        self.all.len() - 1
     }
 
     /// Returns a fact.
@@ -73,6 +72,20 @@ impl Facts {
     /// Returns all facts in order.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = &(Polynomial, Sign)> + ExactSizeIterator {
         self.all.iter()
+    }
+
+    /// Returns `true` if the facts state that a quotient has a sign.
+    pub fn have(&self, of: &Quotient, sign: Sign) -> bool {
+        let states = |(known, known_sign): &(Polynomial, Sign)| {
+            let sign_of_den = self.sign_of_product(&of.den).unwrap_or(Sign::Zero);
+            known_sign.times(sign_of_den).implies(sign) && *known == of.num
+        };
+        (of.num.is_zero() && Sign::Zero.implies(sign)) || self.all.iter().any(states)
+    }
+
+    /// Returns the number of the first fact that a polynomial is positive, or negative.
+    pub fn strict(&self, of: &Polynomial) -> Option<usize> {
+        self.all.iter().position(|(known, sign)| sign.is_strict() && known == of)
     }
 
     /// Returns the product of facts.
@@ -103,6 +116,11 @@ impl Facts {
     pub fn sum(&self, a: &Quotient, n: i128, b: &Quotient) -> Checked<Quotient> {
         let (a, b, den) = self.with_common_denominator(a, b)?;
         Ok(Quotient::new(a.plus_multiple(n, &b, &self.effort)?, den))
+    }
+
+    /// Returns −a.
+    pub fn opposite(&self, a: &Quotient) -> Checked<Quotient> {
+        self.sum(&Polynomial::zero().into(), -1, a)
     }
 
     /// Returns `true` if two quotients are equal, as functions of the variables.

@@ -1,12 +1,12 @@
 //! The formulas of a goal, and the atoms of its polynomials.
 
-use super::polynomial::{MAX_VARIABLES, Polynomial};
-use super::{Checked, MAX_NESTING, Refusal};
+use super::polynomial::MAX_VARIABLES;
+use super::{Checked, Refusal};
 use crate::formula::Hypothesis;
-use crate::formula::claim::PRECISION;
+use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::statement::Proposition;
 use crate::number::tree::{Op, smooth_ops};
-use crate::number::{Dual, Exponential, Tree};
+use crate::number::{Dual, Tree};
 use crate::proof::effort::Effort;
 use rustc_hash::FxHashMap;
 
@@ -32,6 +32,9 @@ pub enum Atom {
     Factor(usize),
 }
 
+/// The powers of scales in a formula, and the number of the formula without them.
+type Scaled = ([i32; 3], usize);
+
 /// The distinct formulas of a goal, each after its operands, and its atoms.
 ///
 /// Formulas are compared by their operations, not by their place in memory, so equal formulas have the same
@@ -41,6 +44,8 @@ pub struct Table {
     formulas: Vec<(Op<usize>, Tree)>,
     numbers: FxHashMap<Op<usize>, usize>,
     atoms: Vec<Atom>,
+    /// For each rounded formula, the powers of scales by which it is a multiple of another one, whose error it has.
+    errors: FxHashMap<usize, Scaled>,
 }
 
 /// A proposition to be proved from hypotheses.
@@ -59,9 +64,7 @@ pub struct Problem<'a> {
     pub goal: Vec<usize>,
     /// The formulas and atoms.
     pub table: Table,
-    /// The number of problems of which this one is a part.
-    pub nesting: u32,
-    /// The effort that is left for its proof, also for that of its parts.
+    /// The effort that is left for its proof.
     pub effort: Effort,
 }
 
@@ -78,14 +81,48 @@ impl Table {
 
     /// Adds a formula and returns its number.
     fn add(&mut self, tree: &Tree) -> Checked<usize> {
-        Table::numbered(tree, |op, part| {
-            let next = self.formulas.len();
-            let number = *self.numbers.entry(op).or_insert(next);
-            if number == next {
-                self.formulas.push((op, part.clone()));
+        Table::numbered(tree, |op, part| Ok(self.insert(op, part.clone())))
+    }
+
+    /// Adds a formula with this last operation and returns its number.
+    fn insert(&mut self, op: Op<usize>, tree: Tree) -> usize {
+        let next = self.formulas.len();
+        let number = *self.numbers.entry(op).or_insert(next);
+        if number == next {
+            self.formulas.push((op, tree));
+        }
+        number
+    }
+
+    /// Returns the powers of scales by which a formula is a multiple of one without scales, and the number of that one;
+    /// `None` if it is no such multiple. `known` are those of its operands, and `tree` is any formula.
+    ///
+    /// Scales are positive, so they are factors of minima and positive parts; and powers of two, so they are factors of
+    /// rounded formulas. The order of two summands or factors does not matter.
+    fn without_scales(&mut self, op: Op<usize>, tree: &Tree, known: &[Option<Scaled>]) -> Option<Scaled> {
+        use Op::*;
+        let parts = op.try_map(|operand| known[*operand])?;
+        let powers = match parts.map(|(powers, _)| *powers) {
+            Symbol(name) => SCALES.map(|scale| i32::from(name == scale)),
+            Int(_) => [0; 3],
+            Neg(n) | PositivePart(n) | Rounded(n) => n,
+            Add(n, m) | Sub(n, m) | Min(n, m) if n == m => n,
+            Mul(n, m) => std::array::from_fn(|i| n[i] + m[i]),
+            Div(n, m) => std::array::from_fn(|i| n[i] - m[i]),
+            Exp([0, 0, 0]) => [0; 3],
+            Add(..) | Sub(..) | Min(..) | Exp(_) => return None,
+        };
+        let unscaled = match parts.map(|(_, unscaled)| *unscaled) {
+            Symbol(name) if SCALES.contains(&name) => Int(1),
+            Mul(one, a) | Mul(a, one) | Div(a, one) if self.formulas[one].0 == Int(1) => {
+                return Some((powers, a));
             }
-            Ok(number)
-        })
+            Add(a, b) if a > b => Add(b, a),
+            Mul(a, b) if a > b => Mul(b, a),
+            op => op,
+        };
+        let tree = tree.with_op(unscaled.map(|operand| self.formulas[*operand].1.clone()));
+        Some((powers, self.insert(unscaled, tree)))
     }
 
     /// Returns the number of a formula.
@@ -123,22 +160,9 @@ impl Table {
         matches!(self.atoms.get(x), Some(Atom::Error(_) | Atom::IntervalParameter(_) | Atom::Factor(_)))
     }
 
-    /// Returns a polynomial of symbols and exponentials as a formula.
-    pub fn to_tree(&self, of: &Polynomial) -> Checked<Tree> {
-        let mut sum = Tree::from(0);
-        for (powers, number) in of.terms() {
-            let mut term = Tree::from(i32::try_from(*number).map_err(|_| Refusal::TooLarge)?);
-            for (x, n) in powers.iter().enumerate().filter(|(_, n)| **n > 0) {
-                let atom = match self.atoms.get(x) {
-                    Some(Atom::Own(name)) => Tree::symbol(name),
-                    Some(Atom::Exponential(exponent)) => self.formula(*exponent)?.exp(),
-                    _ => return Err(Refusal::Rise),
-                };
-                term = (0..*n).fold(term, |term, _| term * &atom);
-            }
-            sum = sum + term;
-        }
-        Ok(sum)
+    /// Returns the powers of scales by which a rounded formula is a multiple of one whose error it has, and that one.
+    pub fn rounding(&self, rounded: usize) -> Checked<Scaled> {
+        self.errors.get(&rounded).copied().ok_or(Refusal::Unknown)
     }
 
     fn add_atom(&mut self, atom: Atom) {
@@ -157,7 +181,10 @@ impl Table {
     }
 
     fn add_atoms(&mut self, hypotheses: &[&Hypothesis]) -> Checked<()> {
-        for op in self.formulas.iter().map(|(op, _)| *op).collect::<Vec<_>>() {
+        let rounds = self.formulas.iter().any(|(op, _)| matches!(op, Op::Rounded(_)));
+        let mut scaled = Vec::with_capacity(self.formulas.len());
+        for (number, (op, tree)) in self.formulas.clone().into_iter().enumerate() {
+            scaled.push(if rounds { self.without_scales(op, &tree, &scaled) } else { None });
             match op {
                 Op::Symbol(name) => self.add_atom(Atom::Own(name)),
                 Op::Exp(exponent) => self.add_exponentials(exponent)?,
@@ -166,8 +193,10 @@ impl Table {
                     self.add_atom(Atom::Factor(of));
                 }
                 Op::Rounded(of) => {
+                    let error = scaled[of].unwrap_or(([0; 3], of));
+                    self.errors.insert(number, error);
                     self.add_atom(Atom::Own(PRECISION));
-                    self.add_atom(Atom::Error(of));
+                    self.add_atom(Atom::Error(error.1));
                 }
                 _ => {}
             }
@@ -194,17 +223,7 @@ impl<'a> Problem<'a> {
         let goal = proposition.trees().into_iter().chain(&derivative);
         let goal = goal.map(|tree| table.add(tree)).collect::<Checked<_>>()?;
         table.add_atoms(&hypotheses)?;
-        Ok(Problem { proposition, hypotheses, values, goal, table, nesting: 0, effort: Effort::default() })
-    }
-
-    /// Returns the problem as a part of another.
-    pub fn within(self, other: &Problem) -> Checked<Self> {
-        let nesting = other.nesting + 1;
-        if nesting > MAX_NESTING {
-            Err(Refusal::TooLarge)
-        } else {
-            Ok(Problem { nesting, effort: other.effort.clone(), ..self })
-        }
+        Ok(Problem { proposition, hypotheses, values, goal, table, effort: Effort::default() })
     }
 
     /// Returns the symbol that tends to infinity in a limit.

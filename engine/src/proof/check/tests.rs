@@ -1,8 +1,11 @@
 //! Certificates by hand, and forged ones.
 
 use super::*;
+use crate::formula::Hypothesis;
+use crate::formula::Relation;
 use crate::formula::claim::{derivative, equal, non_negative, positive, within};
 use crate::formula::statement::Goal;
+use crate::number::Tree;
 use crate::number::tree::Op;
 use crate::number::{Exponential, PositivePart};
 use crate::proof::effort::Effort;
@@ -10,11 +13,15 @@ use crate::proof::effort::Effort;
 mod forms;
 mod limits;
 mod premises;
-mod rises;
 mod rules;
 
-/// A forged proof: its flaw, the statement, the proof, and the reason for which it is refused.
+/// A forged proof: its flaw, the statement, the proof of its goals, and the reason for which it is refused.
 type Forged = (&'static str, Statement, Vec<Node>, Refusal);
+
+/// Returns a forged proof of one goal without cases.
+fn forged(flaw: &'static str, claim: &Statement, steps: Vec<Step>, refusal: Refusal) -> Forged {
+    (flaw, claim.clone(), vec![Node::Leaf(steps)], refusal)
+}
 
 fn x(name: &'static str) -> Tree {
     Tree::symbol(name)
@@ -49,7 +56,7 @@ impl<'a> Page<'a> {
         Page(Problem::new(&goal.proposition, statement.hypotheses_for(goal.role)).unwrap())
     }
 
-    /// Returns the number of an atom or of a quantity of a certificate: z₁ is the first quantity, e₁ the
+    /// Returns the number of an atom or of a fact of a certificate: z₁ is the first fact, e₁ the
     /// first error, t₁ the first interval parameter, S₁ and F₁ the first absolute value and its factor, and
     /// E₁ the first exponential, which its reciprocal follows.
     fn variable(&self, name: &'static str) -> usize {
@@ -84,36 +91,38 @@ impl<'a> Page<'a> {
         }
     }
 
-    fn certificate(&self, known: Vec<Known>, left: impl Into<Tree>, right: impl Into<Tree>) -> Certificate {
-        Certificate { known, left: self.poly(left), right: self.poly(right) }
+    /// Returns the step that shows a polynomial f, with l f = r and these facts.
+    fn show(
+        &self,
+        of: impl Into<Tree>,
+        known: &[usize],
+        left: impl Into<Tree>,
+        right: impl Into<Tree>,
+    ) -> Step {
+        let certificate = Certificate { known: known.into(), left: self.poly(left), right: self.poly(right) };
+        Step::Show(self.poly(of), certificate)
     }
 
-    /// Returns a certificate with quantities as a reason.
-    fn with(&self, known: Vec<Known>, left: impl Into<Tree>, right: impl Into<Tree>) -> Reason {
-        Reason::Certificate(self.certificate(known, left, right))
+    /// Returns the step that shows a polynomial which is a form itself.
+    fn form(&self, of: impl Into<Tree>) -> Step {
+        let of = of.into();
+        self.show(of.clone(), &[], 1, of)
     }
 
-    /// Returns the reason that a polynomial is a form itself.
-    fn form(&self, right: impl Into<Tree>) -> Reason {
-        self.with(vec![], 1, right)
-    }
-
-    fn lemma(&self, of: impl Into<Tree>, certificate: Certificate) -> Known {
-        Known::Lemma((self.poly(of), certificate).into())
+    /// Returns the number of a formula of the goal.
+    fn formula(&self, of: &Tree) -> usize {
+        self.0.table.find(of).unwrap()
     }
 }
 
-fn leaf(hypotheses: &[usize], signs: Vec<Reason>) -> Leaf {
-    Leaf { hypotheses: hypotheses.into(), signs, ..Leaf::default() }
+/// Returns the steps that assume the first hypotheses.
+fn assume(count: usize) -> Vec<Step> {
+    (0..count).map(Step::Assume).collect()
 }
 
-fn node(leaf: Leaf) -> Node {
-    Node::Leaf(leaf.into())
-}
-
-/// Returns a proof of one goal without cases.
-fn proof(hypotheses: &[usize], signs: Vec<Reason>) -> Vec<Node> {
-    vec![node(leaf(hypotheses, signs))]
+/// Returns a proof of one goal without cases, from the first hypotheses.
+fn leaf(count: usize, steps: Vec<Step>) -> Node {
+    Node::Leaf([assume(count), steps].concat())
 }
 
 fn cases(on: Polynomial, positive: Node, other: Node) -> Node {

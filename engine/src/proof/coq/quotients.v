@@ -14,14 +14,15 @@ Definition get (facts : list fact) (i : nat) : fact := nth i facts (Const 0, Zer
 (** An identity l f = r for a polynomial f. Its variables are those of f, and then facts. *)
 Inductive certificate := identity (facts : list nat) (left right : string).
 
-(** A variable, with what facts say of it. *)
+(** A variable, with what is known of it from the start, and what facts say of it. *)
 Definition stronger (j k : kind) : kind :=
   match j with
   | Unit => Unit
   | _ => if implies j k then j else k
   end.
-Definition symbol (facts : list fact) (n : nat) : fact :=
-  (variable n, fold_right (fun a k => if poly_beq (fst a) (variable n) then stronger k (snd a) else k) Any facts).
+Definition symbol (atoms : list kind) (facts : list fact) (n : nat) : fact :=
+  (variable n,
+   fold_right (fun a k => if poly_beq (fst a) (variable n) then stronger k (snd a) else k) (nth n atoms Any) facts).
 
 (** The variables that occur: those of value 0 first, units last. *)
 Fixpoint occurs (n : nat) (p : poly) : bool :=
@@ -45,10 +46,10 @@ Fixpoint position (n : nat) (l : list nat) : nat :=
   | m :: l => if Nat.eqb n m then O else S (position n l)
   end.
 
-(** The sign of [f], whose variables are the first [n]. *)
-Definition certified (n : nat) (facts : list fact) (f : poly) (c : certificate) : kind :=
+(** The sign of [f], whose variables are [atoms]. *)
+Definition certified (atoms : list kind) (facts : list fact) (f : poly) (c : certificate) : kind :=
   let 'identity known a b := c in
-  let all := map (symbol facts) (seq 0 n) ++ map (get facts) known in
+  let all := map (symbol atoms facts) (seq 0 (length atoms)) ++ map (get facts) known in
   let (l, r) := (polynomial a, polynomial b) in
   let order := arranged all l r in
   let places := map (fun n => variable (position n order)) (seq 0 (length all)) in
@@ -182,11 +183,12 @@ End Translation.
 
 (** ** Proofs
 
-    A step adds something that is supposed, or a fact, whose sign a certificate shows; or it says that a product of
-    facts will be a divisor. *)
+    A step adds something that is supposed, or a fact: a sign that a certificate shows, or a square; or it says that a
+    product of facts will be a divisor. *)
 Inductive step :=
   | Given (s : saying)
   | Shown (f : string) (c : certificate)
+  | Squared (f : string)
   | Divisor (l : list nat).
 
 Definition state : Type := list fact * list (list nat) * list (formula * quotient).
@@ -204,42 +206,25 @@ Fixpoint learn (s : saying) (now : state) : option state :=
   | If (f, k) s => if is_known facts products values f k then learn s now else None
   end.
 
-Definition after (n : nat) (s : step) (now : state) : option state :=
+Definition after (atoms : list kind) (s : step) (now : state) : option state :=
   let '(facts, products, values) := now in
   match s with
   | Given s => learn s now
-  | Shown f c => let p := polynomial f in Some (facts ++ [(p, certified n facts p c)], products, values)
+  | Shown f c => let p := polynomial f in Some (facts ++ [(p, certified atoms facts p c)], products, values)
+  | Squared f => let p := polynomial f in Some (facts ++ [(mul p p, NonNegative)], products, values)
   | Divisor l => Some (facts, l :: products, values)
   end.
 
 Definition start : state := ([(Const 2, Positive)], [], []).
-Definition run (n : nat) (steps : list step) : option state :=
-  fold_left (fun now s => match now with Some now => after n s now | None => None end) steps (Some start).
+Definition run (atoms : list kind) (steps : list step) : option state :=
+  fold_left (fun now s => match now with Some now => after atoms s now | None => None end) steps (Some start).
 
-(** The sign of a goal: it is known, or a certificate shows it. *)
-Inductive reason := Known | By (c : certificate).
-
-Definition is_shown (n : nat) (now : state) (goal : formula * kind) (r : reason) : bool :=
-  let '(facts, products, values) := now in
-  let (f, k) := goal in
-  match r with
-  | Known => is_known facts products values f k
-  | By c =>
-      match quotient_of facts products values f with
-      | Some (over p l) => implies (product (certified n facts p c) (kind_of facts l)) k
-      | None => false
-      end
+(** Do the steps show the signs of the goals? *)
+Definition shows (atoms : list kind) (steps : list step) (goals : list (formula * kind)) : bool :=
+  match run atoms steps with
+  | Some (facts, products, values) => forallb (fun g => is_known facts products values (fst g) (snd g)) goals
+  | None => false
   end.
-
-Fixpoint are_shown (n : nat) (now : state) (goals : list (formula * kind)) (reasons : list reason) : bool :=
-  match goals, reasons with
-  | [], _ => true
-  | goal :: goals, r :: reasons => is_shown n now goal r && are_shown n now goals reasons
-  | _, [] => false
-  end.
-
-Definition shows n steps goals reasons : bool :=
-  match run n steps with Some now => are_shown n now goals reasons | None => false end.
 
 Fixpoint all_hold fl (env : list R) (steps : list step) : Prop :=
   match steps with
@@ -248,8 +233,15 @@ Fixpoint all_hold fl (env : list R) (steps : list step) : Prop :=
   | _ :: steps => all_hold fl env steps
   end.
 
+Lemma of_nth atoms env n : Forall2 of_kind atoms env -> of_kind (nth n atoms Any) (nth n env 0).
+Proof.
+  intro A. revert n. induction A as [ | k x ks xs K _ I]; intros [ | n]; simpl;
+    [exact Logic.I | exact Logic.I | exact K | apply I].
+Qed.
+
 Section Right.
-Variables (fl : R -> R) (env : list R).
+Variables (fl : R -> R) (env : list R) (atoms : list kind).
+Variable known_atoms : Forall2 of_kind atoms env.
 
 Lemma of_factor j k l x : is_strict j = true -> of_kind j l -> of_kind k (l * x) -> of_kind (product j k) x.
 Proof. destruct j, k; simpl; try discriminate; try exact (fun _ _ _ => I); nra. Qed.
@@ -267,17 +259,18 @@ Qed.
 Lemma of_stronger j k x : of_kind j x -> of_kind k x -> of_kind (stronger j k) x.
 Proof. unfold stronger. destruct j, k; simpl; auto. Qed.
 
-Lemma of_symbol n : holds env (symbol facts n).
+Lemma of_symbol n : holds env (symbol atoms facts n).
 Proof.
-  unfold symbol, holds. cbn [fst snd]. induction given as [ | a l A L I]; [exact Logic.I | ].
+  unfold symbol, holds. cbn [fst snd]. induction given as [ | a l A L I]; 
+    [rewrite value_variable; apply of_nth, known_atoms | ].
   cbn [fold_right]. destruct (poly_beq (fst a) (variable n)) eqn:E; [ | exact (I L)].
   apply of_stronger; [exact (I L) | ]. rewrite <- (same_value _ _ env E). exact A.
 Qed.
 
-Lemma of_certificate n f c : of_kind (certified n facts f c) (value env f).
+Lemma of_certificate f c : of_kind (certified atoms facts f c) (value env f).
 Proof.
   unfold certified. destruct c as [known a b].
-  set (all := map (symbol facts) (seq 0 n) ++ map (get facts) known). set (order := arranged all _ _).
+  set (all := map (symbol atoms facts) (seq 0 (length atoms)) ++ map (get facts) known). set (order := arranged all _ _).
   destruct (is_strict _ && poly_beq _ _) eqn:E; [ | exact I]. apply andb_prop in E as [S E].
   apply (same_value _ _ env) in E. rewrite value_mul, !(value_compose env _ (map _ order)) in E.
   assert (A : Forall (holds env) all).
@@ -439,15 +432,16 @@ Proof.
     apply I; [exact N | ]. destruct N as [F V]. exact (S (means_known _ _ _ F V f k K)).
 Qed.
 
-Lemma run_right n steps : forall now now', is_right now -> all_hold fl env steps ->
-  fold_left (fun now s => match now with Some now => after n s now | None => None end) steps (Some now) = Some now' -> is_right now'.
+Lemma run_right steps : forall now now', is_right now -> all_hold fl env steps ->
+  fold_left (fun now s => match now with Some now => after atoms s now | None => None end) steps (Some now) = Some now' -> is_right now'.
 Proof.
   induction steps as [ | s steps I]; intros now now' N G; cbn [fold_left]; [intros [= <-]; exact N | ].
-  destruct (after n s now) as [next | ] eqn:A.
-  - apply I; [ | destruct s; [apply G | exact G | exact G]].
-    destruct now as [[facts products] values], s as [s | f c | l]; cbn [after] in A.
+  destruct (after atoms s now) as [next | ] eqn:A.
+  - apply I; [ | destruct s; [apply G | exact G | exact G | exact G]].
+    destruct now as [[facts products] values], s as [s | f c | f | l]; cbn [after] in A.
     + apply (learn_right s (facts, products, values)); [exact N | apply G | exact A].
     + injection A as <-. apply more_facts; [exact N | apply of_certificate, N].
+    + injection A as <-. apply more_facts; [exact N | rewrite value_mul; apply Rle_0_sqr].
     + injection A as <-. exact N.
   - clear. induction steps as [ | s steps I]; [discriminate | exact I].
 Qed.
@@ -461,17 +455,13 @@ Fixpoint all_are (goals : list (formula * kind)) : Prop :=
   | (f, k) :: goals => of_kind k (meaning fl env f) /\ all_are goals
   end.
 
-Lemma shows_right steps goals reasons :
-  all_hold fl env steps -> shows (length env) steps goals reasons = true -> all_are goals.
+Lemma shows_right steps goals :
+  all_hold fl env steps -> shows atoms steps goals = true -> all_are goals.
 Proof.
   intro G. unfold shows, run. destruct (fold_left _ steps _) as [now | ] eqn:R; [ | discriminate].
   apply run_right in R; [ | exact start_right | exact G]. destruct now as [[facts products] values], R as [F V].
-  revert reasons. induction goals as [ | [f k] goals I]; [intros; exact Logic.I | ].
-  intros [ | r reasons]; [discriminate | ]. intros [E L]%andb_prop. split; [ | exact (I _ L)]. clear I L.
-  destruct r as [ | c]; simpl in E; [exact (means_known _ _ _ F V f k E) | ].
-  destruct (quotient_of _ _ _ f) as [[p l] | ] eqn:Q; [ | discriminate].
-  apply of_implies with (1 := E). apply (sign_of_quotient facts F (over p l)); [apply of_certificate, F | ].
-  apply (means_formula facts products values F V f _ Q).
+  induction goals as [ | [f k] goals I]; [intros; exact Logic.I | ].
+  intros [E L]%andb_prop. split; [exact (means_known _ _ _ F V f k E) | exact (I L)].
 Qed.
 
 End Right.

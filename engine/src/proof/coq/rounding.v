@@ -55,10 +55,8 @@ End Rounding.
 (** ** Order
 
     Rounding keeps it. *)
-Lemma ordered prec choice a b x y :
-  (2 <= prec)%Z -> fl prec choice a = x -> fl prec choice b = y -> 0 <= a - b ->
-  0 <= fl prec choice a - fl prec choice b.
-Proof. intros P _ _ L. apply Rge_le, Rge_minus, Rle_ge, fl_le; [exact P | lra]. Qed.
+Lemma ordered prec choice a b : (2 <= prec)%Z -> 0 <= a - b -> 0 <= fl prec choice a - fl prec choice b.
+Proof. intros P L. apply Rge_le, Rge_minus, Rle_ge, fl_le; [exact P | lra]. Qed.
 
 (** ** Units
 
@@ -78,11 +76,11 @@ Proof.
 Qed.
 
 (** The error of one rounding is that of another, if the formulas differ by a power of two. *)
-Lemma same_error prec choice k l x y z a b :
-  (exists a, k = bpow radix2 a) -> (exists a, l = bpow radix2 a) -> fl prec choice x = z ->
+Lemma same_error prec choice k l x y a b :
+  (exists a, k = bpow radix2 a) -> (exists a, l = bpow radix2 a) ->
   fl prec choice y = y * a / b -> k * x - l * y = 0 -> fl prec choice x = x * a / b.
 Proof.
-  intros K L _ F E. destruct (power_of_quotient l k L K) as [e Q].
+  intros K L F E. destruct (power_of_quotient l k L K) as [e Q].
   assert (k <> 0) as N by (destruct K as [c ->]; apply Rgt_not_eq, bpow_gt_0).
   assert (x = l / k * y) as -> by (apply (Rmult_eq_reg_l k); [field_simplify; lra | exact N]).
   rewrite fl_power by (exists e; exact Q). rewrite F. unfold Rdiv. ring.

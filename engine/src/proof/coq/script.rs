@@ -7,10 +7,9 @@
 mod leaf;
 mod limit;
 
-use super::expr::Expr;
 use super::lemma::{Lemma, Result};
 use super::print::{ascii, simplified};
-use crate::formula::claim::{PRECISION, SCALES};
+use crate::formula::claim::PRECISION;
 use crate::formula::{Hypothesis, Proposition, Registry, Statement};
 use crate::proof::check::{Atom, Node, Polynomial, Problem, Sign};
 use crate::proof::render::ProofPrinter;
@@ -32,13 +31,15 @@ struct Target<'p> {
     labels: Vec<Option<String>>,
     /// The tactic that proves its leaves.
     tactic: &'static str,
+    /// The variable of a limit, where it is known to be positive.
+    positive: Option<&'static str>,
 }
 
 impl<'p> Target<'p> {
     fn new(lemma: &'p Lemma<'p>, problem: &'p Problem<'p>, labels: Vec<Option<String>>) -> Self {
         let is_smooth = matches!(problem.proposition, Proposition::Derivative(..));
         let tactic = if is_smooth { "auto_derive; derived" } else { "shown" };
-        Target { lemma, problem, labels, tactic }
+        Target { lemma, problem, labels, tactic, positive: None }
     }
 
     /// Calls `write` with the problem of a proposition whose formulas are simplified, as they are printed.
@@ -72,11 +73,6 @@ impl<'p> Target<'p> {
         }
     }
 
-    /// Returns a polynomial of atoms.
-    fn polynomial(&self, of: &Polynomial) -> Expr {
-        Expr::polynomial(of, |x| Expr::name(self.name(x)))
-    }
-
     /// Writes the formula with a number as an argument.
     fn formula(&self, number: usize) -> Result<String> {
         let tree = self.problem.table.formula(number)?;
@@ -87,22 +83,15 @@ impl<'p> Target<'p> {
         Ok(self.problem.table.variable(atom)?)
     }
 
-    fn label(&self, i: usize) -> Result<&str> {
-        let label = self.labels.get(i).and_then(Option::as_ref);
-        label.map(String::as_str).ok_or_else(|| "a hypothesis about the variable of a limit".into())
+    fn label(&self, i: usize) -> Option<&str> {
+        self.labels.get(i)?.as_deref()
     }
 
-    /// Returns the labels of what is known of the atoms alone.
-    fn known_atoms(&self) -> impl Iterator<Item = (usize, String)> {
-        let scales = SCALES.into_iter().filter(|scale| self.lemma.variables.contains(scale));
-        let scales: Vec<_> = scales.collect();
-        self.problem.table.atoms().iter().enumerate().filter_map(move |(x, atom)| match atom {
-            Atom::Own(name) => {
-                let i = scales.iter().position(|scale| scale == name)?;
-                Some((x, format!("Q{}", i + 1)))
-            }
-            _ => Some((x, format!("B{x}"))),
-        })
+    /// Returns the numbers of a program in Coq; one that does not occur stands for what is not in scope.
+    fn environment(&self, is_known: impl Fn(usize) -> bool) -> String {
+        let atoms = 0..self.problem.table.atoms().len();
+        let names: Vec<_> = atoms.map(|x| if is_known(x) { self.name(x) } else { "PI".into() }).collect();
+        if names.is_empty() { "(@nil R)".into() } else { leaf::list(names) }
     }
 }
 
@@ -161,12 +150,11 @@ impl Script {
 
     fn node(&mut self, target: &Target, node: &Node, cases: &mut Vec<(Polynomial, Sign)>) -> Result<()> {
         match node {
-            Node::Leaf(leaf) => self.leaf(target, leaf, cases),
+            Node::Leaf(steps) => self.leaf(target, steps, cases),
             Node::Cases(on, both) => {
                 let case = format!("C{}", cases.len() + 1);
-                let names =
-                    (0..target.problem.table.atoms().len()).map(|x| target.name(x)).collect::<Vec<_>>();
-                let deciding = format!("value {} (polynomial {})", leaf::environment(&names), leaf::text(on));
+                let env = target.environment(|_| true);
+                let deciding = format!("value {env} (polynomial {})", leaf::text(on));
                 self.line(&format!("destruct (either ({deciding})) as [{case} | {case}]."));
                 for (node, sign) in both.iter().zip([Sign::Positive, Sign::NonPositive]) {
                     cases.push((on.clone(), sign));
@@ -197,7 +185,8 @@ impl Script {
                 Atom::IntervalParameter(i) => {
                     let is_near = target.problem.hypotheses[i].distance().is_some();
                     let rule = if is_near { "near" } else { "between" };
-                    (format!("{rule} _ _ _ {}", target.label(i)?), format!("s{x} & B{x} & F{x}"))
+                    let label = target.label(i).ok_or("an interval of the variable of a limit")?;
+                    (format!("{rule} _ _ _ {label}"), format!("s{x} & B{x} & F{x}"))
                 }
                 Atom::Size(of) => {
                     let y = target.variable(Atom::Factor(of))?;

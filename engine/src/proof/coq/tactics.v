@@ -7,7 +7,7 @@ From Coquelicot Require Export Coquelicot.
 From LIBRARY Require Import A_Polynomials.
 From LIBRARY Require A_Quotients.
 Export A_Polynomials(value, polynomial).
-Export A_Quotients(Shown, Divisor, identity, Known, By).
+Export A_Quotients(Shown, Squared, Divisor, identity).
 Export ListNotations.
 Open Scope R_scope.
 
@@ -89,8 +89,11 @@ Proof. intros. apply Rabs_le. lra. Qed.
 Lemma not_zero x : x * / x - 1 = 0 -> x <> 0.
 Proof. intros E ->. lra. Qed.
 
-(** By some steps, in numbers [env]. *)
-Ltac shown env given reasons :=
+(** What is known of numbers from the start. *)
+Ltac known_from_start := repeat (apply Forall2_cons; [first [exact I | assumption] | ]); exact (Forall2_nil of_kind).
+
+(** By some steps, in numbers [env] of kinds [atoms]. *)
+Ltac shown env atoms given :=
   lazymatch goal with
   | |- Rabs _ <= _ => apply within
   | |- _ <> 0 => apply not_zero, (@proj1 _ True)
@@ -103,16 +106,16 @@ Ltac shown env given reasons :=
       let g := goals T env in
       let fl := rounding in
       steps given env constr:(@nil A_Quotients.step) I
-        ltac:(fun l p => refine (A_Quotients.shows_right fl env l g reasons p _));
-      vm_cast_no_check (eq_refl true)
+        ltac:(fun l p => refine (A_Quotients.shows_right fl env atoms _ l g p _));
+      [known_from_start | vm_cast_no_check (eq_refl true)]
   end.
 
 (** What remains of a derivative. *)
-Ltac derived env given :=
+Ltac derived env atoms given :=
   lazymatch goal with
   | |- True => exact I
-  | |- _ /\ _ => split; derived env given
-  | |- _ => shown env given [Known]
+  | |- _ /\ _ => split; derived env atoms given
+  | |- _ => shown env atoms given
   end.
 
 (** ** Names
@@ -140,19 +143,17 @@ Proof.
     [rewrite Rmin_left | rewrite Rmin_right]; lra.
 Qed.
 
-Lemma same_size x y s r :
-  Rmin (- x) x = - s -> Rmin (- y) y = - r -> (x - y) * (x + y) = 0 -> Rmin (- x) x = - r.
-Proof.
-  intros _ <- E. apply Rmult_integral in E as [E | E];
-    [replace y with x by lra | replace y with (- x) by lra; rewrite Ropp_involutive, Rmin_comm];
-    reflexivity.
-Qed.
+Lemma same_size x y s r : Rmin (- x) x = - s -> Rmin (- y) y = - r -> x - y = 0 -> s - r = 0.
+Proof. intros S R E. replace y with x in R by lra. lra. Qed.
+
+Lemma opposite_size x y s r : Rmin (- x) x = - s -> Rmin (- y) y = - r -> x + y = 0 -> s - r = 0.
+Proof. intros S R E. replace y with (- x) in R by lra. rewrite Ropp_involutive, Rmin_comm in R. lra. Qed.
 
 Lemma exponential a : exists y, 0 < y /\ exp a = y.
 Proof. exists (exp a). split; [apply exp_pos | reflexivity]. Qed.
 
-Lemma same_exponential a b y z : exp a = y -> exp b = z -> a - b = 0 -> exp a = z.
-Proof. intros _ <- E. f_equal. lra. Qed.
+Lemma same_exponential a b z : exp b = z -> a - b = 0 -> exp a = z.
+Proof. intros <- E. f_equal. lra. Qed.
 
 (** Two products of exponentials whose exponents have the same sum. *)
 Lemma both a b y z : exp a = y -> exp b = z -> exp (a + b) = y * z.
@@ -165,68 +166,39 @@ Proof. intros <- <- E. replace b with a by lra. ring. Qed.
 Lemma either d : {0 < d} + {d <= 0}.
 Proof. destruct (Rlt_le_dec 0 d); [left | right]; assumption. Qed.
 
-(** ** Functions that rise
+(** The exponential function lies above its tangent at 0, and below a fraction with a pole at 2. *)
+Lemma above_tangent a y : exp a = y -> 0 <= y - (1 + a).
+Proof. intros <-. destruct (Req_dec a 0) as [-> | N]; [rewrite exp_0 | pose proof (exp_ineq1 a N)]; lra. Qed.
 
-    From a start of one sign, with slopes of that sign. *)
-Lemma by_some_slope (f f' : R -> R) (x : R) :
-  (forall z, 0 <= z -> is_derive f z (f' z)) -> 0 <= x -> exists z, 0 < z /\ f x = f 0 + f' z * x.
+Lemma above_tangent_right a y : exp a = y -> 0 < a -> 0 < y - (1 + a).
+Proof. intros <- A. assert (a <> 0) as N by lra. pose proof (exp_ineq1 a N). lra. Qed.
+
+Lemma above_tangent_left a y : exp a = y -> a < 0 -> 0 < y - (1 + a).
+Proof. intros <- A. assert (a <> 0) as N by lra. pose proof (exp_ineq1 a N). lra. Qed.
+
+Lemma below_pole a y : exp a = y -> 0 < a -> 0 < 2 + a - (2 - a) * y.
 Proof.
-  intros D [X | <-]; [ | exists 1; split; [lra | ring]].
-  destruct (MVT_cor2 f f' 0 x X) as (z & E & Z).
-  { intros z [Z _]. apply is_derive_Reals, D, Z. }
-  exists z. replace (x - 0) with x in E by ring. split; lra.
+  intros <- A. destruct (MVT_cor2 (fun x => 2 + x - (2 - x) * exp x) (fun x => 1 - (1 - x) * exp x) 0 a A) as (z & E & Z).
+  { intros z _. apply is_derive_Reals. auto_derive; [exact I | ring]. }
+  rewrite exp_0 in E. assert (0 < 1 - (1 - z) * exp z); [ | nra].
+  assert (- z <> 0) as N by lra. pose proof (exp_ineq1 (- z) N) as T. pose proof (exp_pos z) as P.
+  rewrite exp_Ropp in T. apply (Rmult_lt_compat_r (exp z) _ _ P) in T. rewrite Rinv_l in T; lra.
 Qed.
 
-(** The slope of a polynomial of functions with these values and slopes. *)
-Fixpoint slope (env slopes : list R) (p : poly) : R :=
-  match p with
-  | Const _ => 0
-  | Grow p q => slope (tl env) (tl slopes) p + (hd 0 slopes * value env q + hd 0 env * slope env slopes q)
-  end.
-
-Lemma is_slope p x : forall env slopes : R -> list R,
-  (forall n, is_derive (fun x => nth n (env x) 0) x (nth n (slopes x) 0)) ->
-  is_derive (fun x => value (env x) p) x (slope (env x) (slopes x) p).
+Lemma below_pole_or_at_0 a y : exp a = y -> 0 <= a -> 0 <= 2 + a - (2 - a) * y.
 Proof.
-  induction p as [z | p I q J]; intros env slopes D; cbn [value slope]; [apply (is_derive_const (IZR z)) | ].
-  apply (is_derive_plus (V := R_NormedModule)).
-  - apply (I (fun x => tl (env x)) (fun x => tl (slopes x))). intro n. apply is_derive_ext with (fun x => nth (S n) (env x) 0).
-    + intro z. destruct (env z), n; reflexivity.
-    + replace (nth n (tl (slopes x)) 0) with (nth (S n) (slopes x) 0); [apply D | destruct (slopes x), n; reflexivity].
-  - apply (is_derive_mult (fun x => hd 0 (env x)) (fun x => value (env x) q)); [ | apply J, D | exact Rmult_comm].
-    apply is_derive_ext with (fun x => nth 0 (env x) 0); [intro z; destruct (env z); reflexivity | ].
-    replace (hd 0 (slopes x)) with (nth 0 (slopes x) 0); [apply D | destruct (slopes x); reflexivity].
+  intros E [A | <-]; [left; exact (below_pole a y E A) | ]. rewrite exp_0 in E. lra.
 Qed.
-
-Lemma rise (env slopes : R -> list R) (p : poly) (x : R) (i j k : kind) :
-  let f x := value (env x) p in let f' x := slope (env x) (slopes x) p in
-  implies k NonNegative = true ->
-  (forall z, 0 <= z -> forall n, is_derive (fun x => nth n (env x) 0) z (nth n (slopes z) 0)) -> of_kind i (f 0) ->
-  (forall z, 0 < z -> of_kind j (f' z)) -> of_kind k x -> of_kind (plus i (product j k)) (f x).
-Proof.
-  intros f f' N D S P X. destruct (by_some_slope f f' x) as (z & Z & ->).
-  - intros z Z. apply is_slope, D, Z.
-  - exact (of_implies k NonNegative x N X).
-  - apply of_plus, of_product; auto.
-Qed.
-
-Ltac rises env slopes text x i j k X :=
-  let p := eval vm_compute in (polynomial text) in
-  unshelve epose proof (rise env slopes p x i j k eq_refl _ _ _) as X;
-  cbn [of_kind plus product value slope hd tl] in *; cbv beta in *.
-Ltac slopes env given :=
-  let n := fresh in
-  intro n; repeat (destruct n as [ | n]; cbn [nth]; [auto_derive; derived env given | ]); auto_derive; reflexivity.
 
 (** ** Limits
 
-    What becomes of a function for great [x] is what becomes of it for small [1/x]. *)
-Lemma limit_at_infinity (f g : R -> R) (y : R) :
-  (forall x, 0 < x -> f x = g (/ x)) -> ex_derive g 0 -> g 0 = y -> is_lim f p_infty y.
+    What becomes of a function for great [x], beyond some [m], is what becomes of it for small [1/x]. *)
+Lemma limit_at_infinity (m : R) (f g : R -> R) (y : R) :
+  (forall x, m < x -> f x = g (/ x)) -> ex_derive g 0 -> g 0 = y -> is_lim f p_infty y.
 Proof.
   intros E D <-.
   apply is_lim_ext_loc with (fun x => g (/ x)).
-  { exists 0. intros x X. symmetry. apply E, X. }
+  { exists m. intros x X. symmetry. apply E, X. }
   apply is_lim_comp with 0.
   - apply is_lim_continuity, continuity_pt_filterlim, (ex_derive_continuous g 0 D).
   - replace (Finite 0) with (Rbar_inv p_infty) by reflexivity.
@@ -245,16 +217,16 @@ Proof.
   - exists 0. intros x _. discriminate.
 Qed.
 
-Lemma limit_with_decay (f g : R -> R) (b r y : R) :
-  (forall x, 0 < x -> f x = g (/ x) + b * exp (r * x)) -> r < 0 -> ex_derive g 0 -> g 0 = y ->
+Lemma limit_with_decay (m : R) (f g : R -> R) (b r y : R) :
+  (forall x, m < x -> f x = g (/ x) + b * exp (r * x)) -> r < 0 -> ex_derive g 0 -> g 0 = y ->
   is_lim f p_infty y.
 Proof.
   intros E P D Y.
   apply is_lim_ext_loc with (fun x => g (/ x) + b * exp (r * x)).
-  { exists 0. intros x X. symmetry. apply E, X. }
+  { exists m. intros x X. symmetry. apply E, X. }
   replace (Finite y) with (Finite (y + b * 0)) by (f_equal; ring).
   apply is_lim_plus'.
-  - apply (limit_at_infinity _ g); auto.
+  - apply (limit_at_infinity m _ g); auto.
   - apply (is_lim_scal_l (fun x => exp (r * x)) b p_infty 0), exp_vanishes, P.
 Qed.
 

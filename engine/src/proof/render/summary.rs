@@ -2,7 +2,7 @@
 
 use super::leaves;
 use crate::proof::Proof;
-use crate::proof::check::{Certificate, Known, Node, Reason};
+use crate::proof::check::{Law, Node, Step};
 
 /// Returns the method of a proof in a few words.
 pub fn proof_summary(proof: &Proof) -> String {
@@ -20,24 +20,11 @@ pub fn proof_summary(proof: &Proof) -> String {
 
 /// Returns the method for a sign.
 fn method(node: &Node) -> &'static str {
-    let leaves = leaves(node);
-    let mut last_signs = leaves.iter().filter_map(|leaf| leaf.signs.last());
-    if leaves.iter().any(|leaf| !leaf.orders.is_empty()) {
-        "order"
-    } else if leaves.iter().any(|leaf| !leaf.rises.is_empty()) {
-        "sign by slope"
-    } else if last_signs.any(|reason| matches!(reason, Reason::Certificate(of) if contains_square(of))) {
-        "sign by square"
-    } else {
-        "sign"
-    }
-}
-
-/// Returns `true` if a certificate rests on the square of a quantity of unknown sign.
-fn contains_square(certificate: &Certificate) -> bool {
-    certificate.known.iter().any(|known| match known {
-        Known::Value(_) => true,
-        Known::Lemma(lemma) => contains_square(&lemma.1),
-        Known::Fact(_) | Known::Exponents { .. } => false,
-    })
+    let methods = leaves(node).into_iter().flatten().filter_map(|step| match step {
+        Step::Law(Law::Order { .. }) => Some("order"),
+        Step::Law(Law::AboveTangent(_) | Law::BelowPole(_)) => Some("sign by exponentials"),
+        Step::Square(_) => Some("sign by square"),
+        _ => None,
+    });
+    methods.min().unwrap_or("sign")
 }

@@ -387,17 +387,6 @@ impl Poly {
         monomials.fold(first, Monomial::common)
     }
 
-    /// Returns the derivative with respect to a variable, which is a quotient because exponents are.
-    pub fn derivative(&self, x: usize) -> Ratio {
-        let derivatives = self.0.iter().filter_map(|(m, q)| {
-            Some((m.checked_div(&Monomial::of(x))?, q * Number::from(i32::from(m.degree(x)))))
-        });
-        self.0.iter().fold(derivatives.collect::<Poly>().into(), |sum, (m, q)| match m.exponent() {
-            None => sum,
-            Some(e) => sum + Ratio::from(Poly::from_iter([(m.clone(), q.clone())])) * e.derivative(x),
-        })
-    }
-
     /// Replaces each occurrence of a monomial, also in exponents, by a quotient.
     ///
     /// The value does not change wherever the monomial equals the quotient.
@@ -511,9 +500,18 @@ impl Ratio {
         Some(self * Ratio::new(other.den.clone(), other.num.clone()))
     }
 
-    /// Returns `true` if neither numerator nor denominator contains e^….
-    pub fn is_rational_function(&self) -> bool {
-        !self.num.has_exponentials() && !self.den.has_exponentials()
+    /// Returns the coefficients of all e^…, and that of the terms without one, by their exponents.
+    pub fn by_exponential(&self) -> Vec<(Ratio, Ratio)> {
+        let mut all: Vec<(Ratio, Poly)> = Vec::new();
+        for (m, q) in self.num.terms() {
+            let exponent = m.exponent().cloned().unwrap_or_else(Ratio::zero);
+            let term = Poly::from_iter([(m.without_exponential(), q.clone())]);
+            match all.iter_mut().find(|(known, _)| *known == exponent) {
+                Some((_, sum)) => *sum = &*sum + term,
+                None => all.push((exponent, term)),
+            }
+        }
+        all.into_iter().map(|(e, sum)| (e, Ratio::new(sum, self.den.clone()))).collect()
     }
 
     /// Returns `true` if the numerator is the zero polynomial.
@@ -532,13 +530,6 @@ impl Ratio {
         let mut set = [false; VARIABLES];
         [&self.num, &self.den].into_iter().for_each(|part| part.add_variables(&mut set));
         listed(&set)
-    }
-
-    /// Returns the derivative with respect to a variable.
-    pub fn derivative(&self, x: usize) -> Self {
-        let (n, d) = (Ratio::from(self.num.clone()), Ratio::from(self.den.clone()));
-        let numerator = self.num.derivative(x) * d - n * self.den.derivative(x);
-        Ratio::new(numerator.num, numerator.den * &self.den * &self.den)
     }
 
     /// Replaces a monomial by a quotient; see [`Poly::replace`].

@@ -8,16 +8,13 @@ use oorandom::Rand32;
 /// Maximum nesting of certificates.
 const MAX_CERTIFICATE_DEPTH: u32 = 3;
 
-/// Maximum number of terms of a polynomial to which rule 4 is applied; its derivative may have more.
-const MAX_SLOPE_TERMS: usize = 12;
-
-/// Maximum number of nested applications of rule 6, each to another symbol.
+/// Maximum number of nested applications of rule 5, each to another symbol.
 const MAX_ENDS: u32 = 6;
 
-/// Maximum degree in a symbol to which rule 6 is applied.
+/// Maximum degree in a symbol to which rule 5 is applied.
 const MAX_ENDS_DEGREE: u8 = 4;
 
-/// Maximum number of terms to which rule 6 is applied.
+/// Maximum number of terms to which rule 5 is applied.
 const MAX_ENDS_TERMS: usize = 1000;
 
 /// Maximum number of terms to which rule 3 is applied if there are symbols between −1 and 1.
@@ -29,8 +26,6 @@ pub fn sign(of: &Poly, known: &SignEnv) -> Option<Certificate> {
 }
 
 /// Returns the sign of a polynomial, by rule 2 also with factors of known sign.
-///
-/// Rule 4 is not tried if there are symbols between −1 and 1.
 pub fn sign_of_product(of: &Poly, factors: &[Certificate], known: &SignEnv) -> Option<Certificate> {
     known.spend(of, &Poly::zero())?;
     if let Some(certificate) = by_terms(of, known) {
@@ -140,10 +135,7 @@ fn within(of: &Poly, known: &SignEnv, depth: u32) -> Option<Certificate> {
         return Some(certificate);
     }
     let depth = depth.checked_sub(1)?;
-    factor(of, known, depth)
-        .or_else(|| square(of, known, depth))
-        .or_else(|| slope(of, known, depth))
-        .or_else(|| exponential_factor(of, known, depth))
+    factor(of, known, depth).or_else(|| square(of, known, depth))
 }
 
 /// Applies rule 3 to any symbol.
@@ -163,36 +155,18 @@ fn factor(of: &Poly, known: &SignEnv, depth: u32) -> Option<Certificate> {
     Some(Certificate::product(of, Certificate::termwise(&factor, known)?, rest))
 }
 
-/// Applies rule 2 to an e^… and the remaining factor, to which it applies rule 4.
-fn exponential_factor(of: &Poly, known: &SignEnv, depth: u32) -> Option<Certificate> {
-    of.exponents().find_map(|exponent| {
-        let rest = of * Poly::exponential(-exponent);
-        let factor = Certificate::termwise(&Poly::exponential(exponent.clone()), known)?;
-        Some(Certificate::product(of, factor, slope(&rest, known, depth)?))
-    })
-}
-
-/// Applies rule 4 to a polynomial with e^….
-fn slope(of: &Poly, known: &SignEnv, depth: u32) -> Option<Certificate> {
-    if !of.has_exponentials() || of.terms().len() > MAX_SLOPE_TERMS {
-        return None;
-    }
-    let mut variables = of.variables().into_iter();
-    variables.find_map(|x| Certificate::mean_value(of, x, known, &|of, known| within(of, known, depth)))
-}
-
-/// Returns the sign by rules 1 and 5.
+/// Returns the sign by rules 1 and 4.
 fn by_terms(of: &Poly, known: &SignEnv) -> Option<Certificate> {
     Certificate::termwise(of, known).or_else(|| Certificate::triangle_inequality(of, known))
 }
 
-/// Returns the sign by rules 1, 2, 5 and 6, the last one applied to at most `symbols` symbols.
+/// Returns the sign by rules 1, 2, 4 and 5, the last one applied to at most `symbols` symbols.
 fn bounded(of: &Poly, known: &SignEnv, symbols: u32) -> Option<Certificate> {
     known.spend(of, &Poly::zero())?;
     by_terms(of, known).or_else(|| by_ends(of, known, symbols))
 }
 
-/// Returns the sign by rules 2 and 6, and the other two inside these.
+/// Returns the sign by rules 2 and 5, and the other two inside these.
 fn by_ends(of: &Poly, known: &SignEnv, symbols: u32) -> Option<Certificate> {
     unit_factor(of, known, symbols).or_else(|| {
         let symbols = symbols.checked_sub(1)?;
@@ -220,16 +194,31 @@ fn unit_factor(of: &Poly, known: &SignEnv, symbols: u32) -> Option<Certificate> 
 }
 
 /// Returns the factors m for which a symbol cancels in `value` − m `other`: an error or interval parameter
-/// if both contain one.
+/// if both contain one; or for which an exponential cancels.
 pub fn multipliers(value: &Ratio, other: &Ratio, known: &SignEnv) -> Vec<Ratio> {
     let (units, others): (Vec<_>, Vec<_>) =
         other.num().variables().into_iter().partition(|x| known.is_unit(*x));
     let mut all = cancelling_multipliers(value, other, &units);
-    if all.is_empty() {
+    if other.num().has_exponentials() {
+        all = exponential_multipliers(value, other);
+    } else if all.is_empty() {
         all = cancelling_multipliers(value, other, &others);
     }
     all.dedup();
     all
+}
+
+/// Returns the factors m for which the terms with an exponential cancel in `value` − m `other`, against those with
+/// another one, or without one.
+fn exponential_multipliers(value: &Ratio, other: &Ratio) -> Vec<Ratio> {
+    let [value, other] = [value, other].map(|of| of.by_exponential());
+    let pairs = value.iter().flat_map(|(e, dividend)| {
+        let others = other.iter().filter(|(d, _)| !d.is_zero());
+        others.filter_map(move |(d, divisor)| {
+            Some(dividend.checked_div(divisor)? * Ratio::from(Poly::exponential(e - d)))
+        })
+    });
+    pairs.collect()
 }
 
 /// Returns the factors m for which one of the symbols cancels.
@@ -276,10 +265,6 @@ mod tests {
 
     fn e(exponent: impl Into<Ratio>) -> Poly {
         Poly::exponential(exponent.into())
-    }
-
-    fn over(a: Poly, b: Poly) -> Ratio {
-        Ratio::from(a).checked_div(&b.into()).unwrap()
     }
 
     fn found(of: Poly) -> Option<Sign> {
@@ -398,40 +383,26 @@ mod tests {
     }
 
     #[test]
-    fn an_exponential_against_its_tangent() {
-        let tangent = || n(1) + x("a");
-        assert_eq!(found(e(x("a")) - tangent()), Some(Positive));
-        assert_eq!(found(tangent() - e(x("a"))), Some(Negative));
-        // The start is negative, or the symbol may be negative.
-        assert_eq!(found(e(x("a")) - n(1) - tangent()), None);
-        assert_eq!(found(e(x("u")) - n(1) - x("u")), None);
-        // Where x may be 0 the sign is not stricter than that of the start.
-        assert_eq!(found(e(x("z")) - n(1) - x("z")), Some(NonNegative));
-        // e^{e^{1/a}} is undefined at a = 0.
-        let nested = over(x("a") * e(over(n(1), x("a"))), tangent());
-        assert_eq!(found(e(-nested) - n(1)), None);
-        // 1 + a − e^{a/(a+1)} takes rule 4 twice.
-        assert_eq!(found(tangent() - e(over(x("a"), tangent()))), Some(Positive));
-    }
-
-    #[test]
-    fn rules_4_and_6_are_not_applied_to_long_sums() {
+    fn rule_5_is_not_applied_to_long_sums() {
         let known = signs([("a", Positive)]);
         let powers = |count: usize| {
             std::iter::successors(Some(x("a")), |power| Some(power * x("a")))
                 .take(count)
                 .fold(n(0), |a, b| a + b)
         };
-        // The derivative of e^a − 1 + a + a² + … has positive terms.
-        let of = |terms: usize| e(x("a")) - n(1) + powers(terms - 2);
-        let lengths = [MAX_SLOPE_TERMS - 1, MAX_SLOPE_TERMS, MAX_SLOPE_TERMS + 1];
-        let is_found = lengths.map(|terms| slope(&of(terms), &known, 1).is_some());
-        assert_eq!(is_found, [true, true, false]);
-        assert!(slope(&powers(3), &known, 1).is_none(), "rule 4 is only applied to polynomials with e^…");
         // (1 + e₁)(2 + e₂)(a + a² + …).
         let of = |terms: usize| (n(1) + error(0)) * (n(2) + error(1)) * powers(terms / 4);
         let lengths = [MAX_ENDS_TERMS, MAX_ENDS_TERMS + 4];
         let is_found = lengths.map(|terms| bounded(&of(terms), &known, 2).is_some());
         assert_eq!(is_found, [true, false]);
+    }
+
+    /// Multipliers cancel an exponential against another one, or against terms without one.
+    #[test]
+    fn multipliers_cancel_exponentials() {
+        let tangent = Ratio::from(e(x("a")) - n(1) - x("a"));
+        let of = |value: Poly| multipliers(&value.into(), &tangent, &signs([]));
+        assert_eq!(of(x("b") * e(x("a"))), [Ratio::from(x("b"))]);
+        assert_eq!(of(n(1) - e(-x("a")))[..1], [Ratio::from(e(-x("a")))]);
     }
 }

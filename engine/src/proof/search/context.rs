@@ -181,8 +181,7 @@ impl Context {
                     self.signs.set(slack, Some(sign));
                     AssumptionUse::Pivot(pivot, by, Some(slack))
                 } else {
-                    self.retained.push((value.clone(), sign));
-                    AssumptionUse::Retained
+                    return self.retain(hypothesis, value, sign);
                 }
             }
             Sign::Zero => self
@@ -194,6 +193,13 @@ impl Context {
         }
         let hypothesis = hypothesis.cloned();
         self.assumptions.push(Assumption { hypothesis, value, divisor: divided_by, usage: used });
+    }
+
+    /// Retains a quantity of known sign.
+    pub(super) fn retain(&mut self, hypothesis: Option<&Hypothesis>, value: Ratio, sign: Sign) {
+        self.retained.push((value.clone(), sign));
+        let (hypothesis, usage) = (hypothesis.cloned(), AssumptionUse::Retained);
+        self.assumptions.push(Assumption { hypothesis, value, divisor: None, usage });
     }
 
     /// Finds a pivot of a quantity, otherwise of its quotient by a positive symbol: 0 < k < 1 is

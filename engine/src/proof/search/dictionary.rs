@@ -74,7 +74,7 @@ impl Knowledge<'_> {
         if !of.has_exponentials() {
             return Some(of.clone());
         }
-        let exponents: Vec<_> = state.exponents.iter().map(|(x, e)| (*x, self.ratio(e, state))).collect();
+        let exponents: Vec<_> = state.exponents.iter().map(|(e, x)| (*x, self.ratio(e, state))).collect();
         let reduced: Vec<_> = exponents.iter().map(|(x, e)| (*x, self.context.reduce(e))).collect();
         let terms = of.terms().map(|(monomial, number)| {
             let mut rest = monomial.without_exponential();

@@ -4,7 +4,7 @@ use super::algebra::{Monomial, Poly, Ratio};
 use super::assumption::AssumptionUse;
 use super::dictionary::{integral, opaque};
 use super::finder::{Finder, Result};
-use crate::proof::check::{Atom, Certificate, Known, Polynomial};
+use crate::proof::check::{Atom, Certificate, Law, Polynomial, Step};
 
 /// An equation v = 0, as a combination of quantities that are 0.
 struct Equation {
@@ -80,12 +80,14 @@ fn without_common_factor(left: Poly, right: Poly) -> (Poly, Poly) {
 impl Finder<'_, '_> {
     /// Returns a certificate with l f = r, for forms l and r whose difference vanishes, maybe by equations.
     pub fn equated(&mut self, of: &Polynomial, form: Ratio) -> Result<Certificate> {
-        let left = self.guide.without_exponentials(form.den(), self.state).ok_or("an exponential")?;
-        let right = self.guide.without_exponentials(form.num(), self.state).ok_or("an exponential")?;
+        let state = &self.proof.state;
+        let left = self.guide.without_exponentials(form.den(), state).ok_or("an exponential")?;
+        let right = self.guide.without_exponentials(form.num(), state).ok_or("an exponential")?;
         let (left, right) = without_common_factor(left, right);
         let (mut left, mut right) = integral(&left, &right);
         let found = self.finished(&left, &right)?;
-        let difference = self.state.difference(of, &found)?;
+        let [one, other] = state.sides(of, &found)?;
+        let difference = one.plus_multiple(-1, &other, &state.facts.effort)?;
         if difference.is_zero() {
             return Ok(found);
         }
@@ -108,38 +110,42 @@ impl Finder<'_, '_> {
                 }
                 AssumptionUse::Size { pivot, size, .. } => {
                     // An absolute value may not have been met yet.
-                    let known = self.state.sizes.iter().find(|known| known.size == *size);
-                    let Some(known) = known else { continue };
-                    (pivot, known.fact)
+                    let Some(fact) = guide.sizes.get(size) else { continue };
+                    (pivot, *fact)
                 }
                 _ => continue,
             };
-            let (of, _) = self.state.facts.get(fact).map_err(|_| "an equation")?;
-            let (pivot, value, sum) = (pivot.clone(), opaque(of), self.quantity(Known::Fact(fact)));
+            let value = opaque(&self.proof.state.facts.get(fact)?.0);
+            let (pivot, sum) = (pivot.clone(), self.variable(fact));
             equations.push(Equation { pivot, value, sum, symbols });
         }
-        self.add_products_of_exponentials(&mut equations, symbols);
+        self.add_products_of_exponentials(&mut equations, symbols)?;
         Ok(equations)
     }
 
-    /// Adds eᵃ eᵇ = eᶜ for a + b = c, where eᶜ may be 1.
-    fn add_products_of_exponentials(&mut self, equations: &mut Vec<Equation>, symbols: usize) {
-        let state = self.state;
-        let exponents = state.exponents.iter().map(|(x, e)| (*x, self.guide.ratio(e, state)));
+    /// Adds eᵃ eᵇ = eᶜ for a + b = c, where eᵇ and eᶜ may be 1.
+    fn add_products_of_exponentials(&mut self, equations: &mut Vec<Equation>, symbols: usize) -> Result<()> {
+        let state = &self.proof.state;
+        let exponents = state.exponents.iter().map(|(e, x)| (*x, self.guide.ratio(e, state)));
         let exponents: Vec<_> = exponents.collect();
-        for (i, (x, a)) in exponents.iter().enumerate() {
-            for (y, b) in &exponents[i..] {
-                let sum = a + b;
-                let whole = exponents.iter().find(|(_, c)| (c - &sum).is_zero()).map(|(z, _)| *z);
-                if whole.is_none() && !sum.is_zero() {
-                    continue;
-                }
-                let known = Known::Exponents { left: vec![*x, *y], right: whole.into_iter().collect() };
-                let pivot = Monomial::of(*x).times(&Monomial::of(*y));
-                let value = Poly::from(pivot.clone()) - whole.map_or(Poly::constant(1), Poly::variable);
-                equations.push(Equation { pivot, value, sum: self.quantity(known), symbols });
-            }
+        let singles = exponents.iter().map(|(x, a)| (vec![*x], a.clone()));
+        let pairs = exponents.iter().enumerate().flat_map(|(i, (x, a))| {
+            let others = exponents[i..].iter();
+            others.map(move |(y, b)| (vec![*x, *y], a + b))
+        });
+        for (left, sum) in singles.chain(pairs) {
+            let mut others = exponents.iter().take_while(|(z, _)| left != [*z]);
+            let right = match others.find(|(_, c)| (c - &sum).is_zero()) {
+                _ if sum.is_zero() => Vec::new(),
+                Some((z, _)) => vec![*z],
+                None => continue,
+            };
+            let pivot = left.iter().fold(Monomial::one(), |product, x| product.times(&Monomial::of(*x)));
+            let fact = self.proof.add_once(Step::Law(Law::Exponents { left, right }))?;
+            let value = opaque(&self.proof.state.facts.get(fact)?.0);
+            equations.push(Equation { pivot, value, sum: self.variable(fact), symbols });
         }
+        Ok(())
     }
 
     /// Returns a combination of quantities that are 0 which is `difference`. Multiplies the forms by what the

@@ -5,8 +5,9 @@ use super::algebra::{Monomial, Poly, Ratio};
 use super::assumption::{AssumptionUse, SignedRatio};
 use super::dictionary::opaque;
 use super::knowledge::{AssumedFact, Knowledge};
+use super::leaf::Steps;
 use super::symbol::Symbol;
-use crate::proof::check::{Certificate, Known, MAX_VARIABLES, Polynomial, State};
+use crate::proof::check::{Certificate, MAX_VARIABLES, Polynomial, Step};
 
 /// Maximum nesting of lemmas.
 const MAX_DEPTH: u32 = 4;
@@ -15,35 +16,37 @@ const MAX_DEPTH: u32 = 4;
 pub type Result<T> = std::result::Result<T, Failure>;
 
 /// A search for one certificate.
-pub struct Finder<'a, 'p> {
-    pub guide: &'a Knowledge<'a>,
-    pub state: &'a State<'p>,
-    pub quantities: Vec<Known>,
+pub struct Finder<'f, 'p> {
+    pub guide: &'f Knowledge<'p>,
+    pub proof: &'f mut Steps<'p>,
+    /// The facts in it.
+    facts: Vec<usize>,
     /// The nesting of the certificate in others.
-    pub depth: u32,
+    depth: u32,
 }
 
-impl<'a, 'p> Finder<'a, 'p> {
-    fn new(guide: &'a Knowledge<'a>, state: &'a State<'p>, depth: u32) -> Self {
-        Finder { guide, state, quantities: Vec::new(), depth }
+impl<'f, 'p> Finder<'f, 'p> {
+    fn new(guide: &'f Knowledge<'p>, proof: &'f mut Steps<'p>, depth: u32) -> Self {
+        Finder { guide, proof, facts: Vec::new(), depth }
     }
 
-    /// Returns a certificate for a polynomial whose quotient by these facts has this sign.
-    pub fn find(
-        guide: &'a Knowledge<'a>,
+    /// Shows a polynomial whose quotient by these facts has this sign.
+    pub fn show(
+        guide: &'f Knowledge<'p>,
         of: &Polynomial,
         den: &[usize],
         signed: &SignedRatio,
-        state: &'a State<'p>,
-    ) -> Result<Certificate> {
-        Finder::new(guide, state, 0).certificate(of, den, signed)
+        proof: &'f mut Steps<'p>,
+    ) -> Result<()> {
+        Finder::new(guide, proof, 0).shown(of, den, signed).map(|_| ())
     }
 
-    /// Returns a certificate for a multiple, or divisor, of a fact about an order of rounded formulas.
-    pub fn by_order(guide: &'a Knowledge<'a>, of: &Polynomial, state: &'a State<'p>) -> Option<Certificate> {
-        let value = guide.poly(of, state);
-        for (i, (fact, _)) in state.facts.iter().enumerate().rev() {
-            let fact = guide.poly(fact, state);
+    /// Shows a multiple, or divisor, of a fact about an order of rounded formulas. Returns `false` if it is none.
+    pub fn by_order(guide: &Knowledge<'p>, of: &Polynomial, proof: &mut Steps<'p>) -> Result<bool> {
+        let value = guide.poly(of, &proof.state);
+        let count = proof.state.facts.iter().len();
+        for i in (0..count).rev() {
+            let fact = guide.poly(&proof.state.facts.get(i)?.0, &proof.state);
             let (quotient, is_multiple) = match value.checked_div(&fact) {
                 Some(quotient) => (quotient, true),
                 None => match fact.checked_div(&value) {
@@ -53,63 +56,70 @@ impl<'a, 'p> Finder<'a, 'p> {
             };
             let reduced = guide.context.reduce(&quotient.into());
             let Some(signed) = guide.sign(reduced) else { continue };
-            let mut finder = Finder::new(guide, state, 0);
+            let mut finder = Finder::new(guide, &mut *proof, 0);
             let found = finder.form(&signed, &[]).and_then(|form| finder.without_slacks(form));
             let (Ok(form), symbol) = (found, finder.fact(i)) else { continue };
             let symbol = Ratio::from(symbol);
             let form = if is_multiple { Some(form * symbol) } else { symbol.checked_div(&form) };
-            if let Ok(found) = finder.equated(of, form?)
-                && state.certify(of, &found).is_ok()
+            if let Some(form) = form
+                && let Ok(found) = finder.equated(of, form)
+                && finder.proof.add(Step::Show(of.clone(), found)).is_ok()
             {
-                return Some(found);
+                return Ok(true);
             }
         }
-        None
+        Ok(false)
     }
 
-    /// Returns the variable of a quantity, which becomes part of the certificate. If there are too many, the
-    /// checker refuses it.
-    pub fn quantity(&mut self, known: Known) -> Poly {
-        let index = self.quantities.iter().position(|other| *other == known);
+    /// Returns the variable of a fact, which becomes part of the certificate. If there are too many, the checker
+    /// refuses it.
+    pub fn variable(&mut self, fact: usize) -> Poly {
+        let index = self.facts.iter().position(|other| *other == fact);
         let i = index.unwrap_or_else(|| {
-            self.quantities.push(known);
-            self.quantities.len() - 1
+            self.facts.push(fact);
+            self.facts.len() - 1
         });
-        let first = self.state.problem.table.atoms().len();
+        let first = self.proof.state.problem.table.atoms().len();
         Poly::variable((first + i).min(MAX_VARIABLES - 1))
     }
 
     /// Returns the polynomial of a fact: its number if it is one.
     pub fn fact(&mut self, i: usize) -> Poly {
-        match self.state.facts.get(i) {
+        match self.proof.state.facts.get(i) {
             Ok((of, _)) if of.has_only(|_| false) => opaque(of),
-            _ => self.quantity(Known::Fact(i)),
+            _ => self.variable(i),
         }
     }
 
-    /// Returns the polynomial of a lemma about a value in original variables.
+    /// Returns the polynomial of a fact that is shown about a value in original variables.
     pub fn lemma(&mut self, value: &Poly) -> Result<Poly> {
         if self.depth >= MAX_DEPTH {
             return Err("too deep".into());
         }
-        let of = self.guide.polynomial(value, self.state).ok_or("a lemma")?;
-        let signed = self.guide.sign(self.guide.reduced(&of, self.state)).ok_or("the sign of a lemma")?;
-        let mut finder = Finder::new(self.guide, self.state, self.depth + 1);
-        let certificate = finder.certificate(&of, &[], &signed)?;
-        self.state.certify(&of, &certificate)?;
-        Ok(self.quantity(Known::Lemma((of, certificate).into())))
+        let state = &self.proof.state;
+        let of = self.guide.polynomial(value, state).ok_or("a lemma")?;
+        let fact = match state.facts.strict(&of) {
+            Some(fact) => fact,
+            None => {
+                let signed = self.guide.sign(self.guide.reduced(&of, state)).ok_or("the sign of a lemma")?;
+                Finder::new(self.guide, self.proof, self.depth + 1).shown(&of, &[], &signed)?
+            }
+        };
+        Ok(self.variable(fact))
     }
 
-    fn certificate(&mut self, of: &Polynomial, den: &[usize], signed: &SignedRatio) -> Result<Certificate> {
+    fn shown(&mut self, of: &Polynomial, den: &[usize], signed: &SignedRatio) -> Result<usize> {
         let form = self.form(signed, den)?;
         let form = self.without_slacks(form)?;
-        self.equated(of, form)
+        let certificate = self.equated(of, form)?;
+        self.proof.add(Step::Show(of.clone(), certificate))
     }
 
-    /// Returns the certificate for l and r in original variables and quantities, with integers as coefficients.
+    /// Returns the certificate for l and r in original variables and facts, with integers as coefficients.
     pub fn finished(&self, left: &Poly, right: &Poly) -> Result<Certificate> {
-        let [left, right] = [left, right].map(|of| self.guide.polynomial(of, self.state).ok_or("a form"));
-        Ok(Certificate { known: self.quantities.clone(), left: left?, right: right? })
+        let [left, right] =
+            [left, right].map(|of| self.guide.polynomial(of, &self.proof.state).ok_or("a form"));
+        Ok(Certificate { known: self.facts.clone(), left: left?, right: right? })
     }
 
     /// Returns the quantity of an assumption as a quotient of facts.
@@ -131,7 +141,7 @@ impl<'a, 'p> Finder<'a, 'p> {
             let pivot = Monomial::of(*x);
             let assumed = guide.facts.get(i).and_then(Option::as_ref);
             let Some(assumed) = assumed.filter(|_| form.contains(&pivot)) else { continue };
-            let is_variable = self.state.facts.get(assumed.fact)?.0.as_variable().is_some();
+            let is_variable = self.proof.state.facts.get(assumed.fact)?.0.as_variable().is_some();
             if is_variable && matches!(guide.context.symbol(*x), Some(Symbol::Own(_))) {
                 continue;
             }

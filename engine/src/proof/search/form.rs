@@ -1,15 +1,12 @@
-//! Forms for the six rules.
+//! Forms for the rules.
 
-use super::Failure;
-use super::algebra::{FIRST_SLACK, Poly, Ratio};
+use super::algebra::{Poly, Ratio};
 use super::assumption::SignedRatio;
 use super::choice;
-use super::dictionary::{integral, opaque};
+use super::dictionary::integral;
 use super::finder::{Finder, Result};
 use super::rules::{Certificate, Rule};
-use crate::formula::Relation;
-use crate::proof;
-use crate::proof::check::{Known, Leaf, Node, Polynomial, Rise, Sign};
+use crate::proof::check::Step;
 
 /// Forms l and r with l f = r.
 type Forms = (Poly, Poly);
@@ -40,7 +37,8 @@ impl Finder<'_, '_> {
     fn cancelled(&self, den: &Poly, facts: &[usize]) -> (Poly, Vec<usize>) {
         let (mut den, mut rest) = (den.clone(), Vec::new());
         for i in facts {
-            let fact = self.state.facts.get(*i).map(|(of, _)| self.guide.reduced(of, self.state));
+            let fact =
+                self.proof.state.facts.get(*i).map(|(of, _)| self.guide.reduced(of, &self.proof.state));
             let quotient = fact.ok().filter(|fact| fact.den().is_one() && !fact.is_zero());
             match quotient.and_then(|fact| den.checked_div(fact.num())) {
                 Some(quotient) => den = quotient,
@@ -85,7 +83,6 @@ impl Finder<'_, '_> {
             }
             Rule::Square { leading, root, rest } => self.square(leading, root, rest),
             Rule::Endpoints { x, at } => self.ends(*x, at),
-            Rule::MeanValue { x, start, slope } => self.slope(of, *x, [start.sign(), slope.sign()]),
         }
     }
 
@@ -99,9 +96,9 @@ impl Finder<'_, '_> {
         if [scale.num(), scale.den()].into_iter().any(|part| part.terms().len() != 1) {
             return Err("the scale of a root".into());
         }
-        let of = self.guide.polynomial(&value, self.state).ok_or("a root")?;
-        let root = scale * Ratio::from(self.quantity(Known::Value(of)));
-        let square = &root * &root;
+        let of = self.guide.polynomial(&value, &self.proof.state).ok_or("a root")?;
+        let fact = self.proof.add(Step::Square(of))?;
+        let square = &scale * &scale * Ratio::from(self.variable(fact));
         let left = Poly::constant(4) * leading * &left_of_rest * square.den();
         let right = &left_of_leading * left_of_rest * square.num() + left_of_leading * rest * square.den();
         Ok((left, right))
@@ -111,8 +108,8 @@ impl Finder<'_, '_> {
     fn ends(&mut self, x: usize, at: &[Certificate]) -> Result<Forms> {
         let forms: Vec<Forms> = at.iter().map(|end| self.forms(end)).collect::<Result<_>>()?;
         let (one, x) = (Poly::constant(1), Poly::variable(x));
-        let lower = self.bound(&(&one + &x))?;
-        let upper = self.bound(&(&one - &x))?;
+        let lower = self.lemma(&(&one + &x))?;
+        let upper = self.lemma(&(&one - &x))?;
         let all = forms.iter().fold(one, |all, (left, _)| all * left);
         let mut sum = Poly::zero();
         for (i, (left, right)) in forms.iter().enumerate() {
@@ -121,62 +118,5 @@ impl Finder<'_, '_> {
                 + (1..at.len()).fold(right * others, |term, k| term * if k <= i { &lower } else { &upper });
         }
         Ok(((1..at.len()).fold(all, |all, _| all * Poly::constant(2)), sum))
-    }
-
-    /// Returns a lemma about 1 + x or 1 − x, which is a form itself.
-    fn bound(&mut self, value: &Poly) -> Result<Poly> {
-        let of = self.guide.polynomial(value, self.state).ok_or("a unit")?;
-        let (known, left, right) = (Vec::new(), Polynomial::constant(1), of.clone());
-        let certificate = proof::check::Certificate { known, left, right };
-        Ok(self.quantity(Known::Lemma((of, certificate).into())))
-    }
-
-    /// Returns the forms of a function whose sign follows from that of its slope.
-    fn slope(&mut self, of: &Certificate, x: usize, signs: [Sign; 2]) -> Result<Forms> {
-        let original = self.guide.original(&of.of().clone().into());
-        for i in 0..self.state.facts.iter().len() {
-            let Some(scale) = self.scale(&original, i) else { continue };
-            let symbol = self.fact(i);
-            return Ok((scale.den().clone(), scale.num() * symbol));
-        }
-        if x >= FIRST_SLACK {
-            return Err("the slope in a slack variable".into());
-        }
-        let is_falling = of.sign().implies(Sign::NonPositive);
-        let num = if is_falling { -original.num() } else { original.num().clone() };
-        let (num, _) = integral(&num, &num);
-        let of = self.guide.polynomial(&num, self.state).ok_or("a function that rises")?;
-        let [start, slope] = signs.map(|sign| relation(if is_falling { sign.negated() } else { sign }));
-        let (start, slope) = (start.ok_or("the sign of a start")?, slope.ok_or("the sign of a slope")?);
-        let parts = [(); 3].map(|()| Node::Leaf(Leaf::default().into()));
-        Err(Failure::Rise(Rise { of, x, start, slope, parts }.into()))
-    }
-
-    /// Returns the quotient of a value and a fact if it is one of single terms.
-    fn scale(&self, original: &Ratio, fact: usize) -> Option<Ratio> {
-        let (fact, _) = self.state.facts.get(fact).ok()?;
-        let fact = opaque(fact);
-        let scale = if original.num().has_exponentials() {
-            let num = self.guide.without_exponentials(original.num(), self.state)?;
-            let [a, b] = [&num, &fact].map(|of| of.terms().last().map(|(_, q)| Poly::constant(q.clone())));
-            let (a, b) = (a?, b?);
-            if &num * &b != &fact * &a {
-                return None;
-            }
-            Ratio::from(a).checked_div(&(b * original.den()).into())?
-        } else {
-            original.checked_div(&fact.into())?
-        };
-        let is_simple = [scale.num(), scale.den()].into_iter().all(|part| part.terms().len() == 1);
-        is_simple.then_some(scale)
-    }
-}
-
-fn relation(sign: Sign) -> Option<Relation> {
-    match sign {
-        Sign::Positive => Some(Relation::Positive),
-        Sign::NonNegative => Some(Relation::NonNegative),
-        Sign::Zero => Some(Relation::Zero),
-        Sign::Negative | Sign::NonPositive => None,
     }
 }

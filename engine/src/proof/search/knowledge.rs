@@ -9,6 +9,7 @@ use super::rules::Certificate;
 use crate::formula::Hypothesis;
 use crate::number::tree::Op;
 use crate::proof::check::{Atom, Problem, Refusal, Sign, State};
+use std::collections::BTreeMap;
 
 /// A fact of the checker for an assumption, whose quantity is `scale` times the fact divided by other facts.
 #[derive(Clone)]
@@ -29,13 +30,15 @@ pub struct Knowledge<'a> {
     pub facts: Vec<Option<AssumedFact>>,
     /// The signs of factors of divisors.
     pub factors: Vec<Certificate>,
+    /// The facts about absolute values that are atoms, by their variables.
+    pub sizes: BTreeMap<usize, usize>,
 }
 
 impl<'a> Knowledge<'a> {
     /// Returns the knowledge before any assumption.
     pub fn new(problem: &'a Problem) -> Self {
-        let (slacks, facts, factors) = Default::default();
-        Knowledge { problem, context: Context::new(problem), slacks, facts, factors }
+        let (slacks, facts, factors, sizes) = Default::default();
+        Knowledge { problem, context: Context::new(problem), slacks, facts, factors, sizes }
     }
 
     /// Returns a quantity at which the search ends.
@@ -47,6 +50,19 @@ impl<'a> Knowledge<'a> {
     pub fn assume(&mut self, hypothesis: &Hypothesis, value: Ratio, fact: AssumedFact) {
         self.context.assume_sign(Some(hypothesis), value, hypothesis.relation.into());
         self.record(Some(fact));
+    }
+
+    /// Uses the fact that two variables are equal.
+    pub fn equate(&mut self, [x, y]: [usize; 2], fact: usize) {
+        let difference = Poly::variable(x) - Poly::variable(y);
+        self.context.assume_sign(None, difference.into(), Sign::Zero);
+        self.record(Some(AssumedFact { fact, den: Vec::new(), scale: Poly::constant(1).into() }));
+    }
+
+    /// Retains a quantity of known sign, which is a fact.
+    pub fn retain(&mut self, value: Ratio, sign: Sign, fact: usize) {
+        self.context.retain(None, value, sign);
+        self.record(Some(AssumedFact { fact, den: Vec::new(), scale: Poly::constant(1).into() }));
     }
 
     /// Adds the assumption of a case.
@@ -86,12 +102,13 @@ impl<'a> Knowledge<'a> {
     }
 
     /// Records the signs of the factors of a divisor.
-    pub fn collect_factors(&mut self, divisor: usize, state: &State) -> Result<(), Refusal> {
+    pub fn collect_factors(&mut self, divisor: usize, state: &mut State) -> Result<(), Refusal> {
         match self.problem.table.op(divisor)? {
             Op::Mul(a, b) => [a, b].into_iter().try_for_each(|factor| self.collect_factors(factor, state)),
             Op::Neg(a) | Op::Div(a, _) | Op::Rounded(a) => self.collect_factors(a, state),
             _ => {
-                let factor = self.reduced_quotient(state.value(divisor).ok_or(Refusal::Unknown)?, state);
+                let value = state.value(divisor)?;
+                let factor = self.reduced_quotient(&value, state);
                 if self.factors.iter().all(|known| known.of() != factor.num()) {
                     self.factors.extend(choice::sign(factor.num(), &self.context.signs));
                 }

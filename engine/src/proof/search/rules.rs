@@ -1,23 +1,21 @@
 //! Rules for the sign of a polynomial for all values of its symbols.
 //!
-//! A [`Certificate`] is made by one of six rules. The [forms](super::form) of the checker's certificates
+//! A [`Certificate`] is made by one of five rules. The [forms](super::form) of the checker's certificates
 //! follow from it.
 //!
 //! 1. **Terms.** All terms have the same sign, which follows from the known signs of symbols; even powers of
 //!    free symbols are not negative, and e^… is positive. The sign is strict if that of one term is.
 //! 2. **Factor.** The sign of a product follows from those of its factors.
 //! 3. **Square.** If 4 a f = r² + d with a ≠ 0 and d is not negative, f has the sign of a.
-//! 4. **Slope.** By the mean value theorem, a function f that is continuous for x ≥ 0 and differentiable for
-//!    x > 0 is f(0) + x f'(ξ) for some ξ > 0; its sign follows from those of the two terms.
-//! 5. **Sizes.** Factors between −1 and 1 do not increase the absolute value of a term, and their squares do
+//! 4. **Sizes.** Factors between −1 and 1 do not increase the absolute value of a term, and their squares do
 //!    not change its sign. So the polynomial is bounded from below by the one in which each term with such
 //!    factors is replaced by minus its absolute value without them, or by 0 if they are squares and the term
 //!    is not negative; and likewise from above.
-//! 6. **Ends.** A polynomial of degree n in a symbol x between −1 and 1 is a sum of products aⁱ (1 − a)ⁿ⁻ⁱ
+//! 5. **Ends.** A polynomial of degree n in a symbol x between −1 and 1 is a sum of products aⁱ (1 − a)ⁿ⁻ⁱ
 //!    with a = (1 + x)/2, none of them negative and not all 0, so it has the common sign of their
 //!    coefficients (Bernstein form). In degree one the coefficients are its values at the ends.
 
-use super::algebra::{Monomial, Number, Poly, Ratio, VARIABLES};
+use super::algebra::{Monomial, Number, Poly, VARIABLES};
 use crate::proof::check::Sign::{self, Negative, NonNegative, NonPositive, Positive, Zero};
 use crate::proof::effort::Effort;
 use rug::{Complete, Integer, Rational};
@@ -79,7 +77,7 @@ pub struct Certificate {
 /// The rule of a certificate, with the certificates on which it depends.
 #[derive(Clone, Debug)]
 pub enum Rule {
-    /// Rule 1 or 5.
+    /// Rule 1 or 4.
     Terms,
     /// Rule 2, with the signs of the two factors.
     Product(Box<Certificate>, Box<Certificate>),
@@ -92,16 +90,7 @@ pub enum Rule {
         /// The sign of d.
         rest: Box<Certificate>,
     },
-    /// Rule 4.
-    MeanValue {
-        /// The variable x.
-        x: usize,
-        /// The sign of f(0).
-        start: Box<Certificate>,
-        /// The sign of the numerator of f'.
-        slope: Box<Certificate>,
-    },
-    /// Rule 6.
+    /// Rule 5.
     Endpoints {
         /// The variable x.
         x: usize,
@@ -159,21 +148,6 @@ impl Certificate {
     }
 
     /// Applies rule 4.
-    pub fn mean_value(of: &Poly, x: usize, known: &SignEnv, find: SignSearch) -> Option<Self> {
-        let at_x = known.get(x)?;
-        if !at_x.implies(NonNegative) || !is_continuous(of, &known.with(x, NonNegative)) {
-            return None;
-        }
-        let start = of.replace(&Monomial::of(x), &Ratio::zero());
-        let start = find(&numerator(&start, known)?, known)?;
-        let interior = known.with(x, Positive);
-        let slope = find(&numerator(&of.derivative(x), &interior)?, &interior)?;
-        let sign = start.sign.plus(at_x.times(slope.sign))?;
-        let rule = Rule::MeanValue { x, start: start.into(), slope: slope.into() };
-        Some(Certificate { of: of.clone(), sign, rule })
-    }
-
-    /// Applies rule 5.
     pub fn triangle_inequality(of: &Poly, known: &SignEnv) -> Option<Self> {
         let (unit_terms, others): (Vec<_>, Vec<_>) =
             of.terms().partition(|(m, _)| m.powers().any(|(x, _)| known.is_unit(x)));
@@ -187,7 +161,7 @@ impl Certificate {
         })
     }
 
-    /// Applies rule 6.
+    /// Applies rule 5.
     pub fn endpoints(of: &Poly, x: usize, known: &SignEnv, find: SignSearch) -> Option<Self> {
         if !known.is_unit(x) || of.has_in_exponent(x) {
             return None;
@@ -241,20 +215,6 @@ fn sign_of_monomial(monomial: &Monomial, known: &SignEnv) -> Option<Sign> {
     })
 }
 
-/// Returns `true` if all exponents are quotients of polynomials whose denominators do not vanish.
-fn is_continuous(of: &Poly, known: &SignEnv) -> bool {
-    of.exponents().all(|exponent| exponent.is_rational_function() && numerator(exponent, known).is_some())
-}
-
-/// Returns a polynomial with the sign of a quotient if the sign of the denominator is known.
-fn numerator(of: &Ratio, known: &SignEnv) -> Option<Poly> {
-    match Certificate::termwise(of.den(), known)?.sign {
-        Positive => Some(of.num().clone()),
-        Negative => Some(-of.num()),
-        NonNegative | NonPositive | Zero => None,
-    }
-}
-
 /// Returns the coefficients bᵢ for which a polynomial of degree n in x is Σ bᵢ aⁱ (1 − a)ⁿ⁻ⁱ, where
 /// a = (1 + x)/2.
 ///
@@ -291,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn rule_5_applies_to_squares_of_symbols_between_minus_1_and_1() {
+    fn rule_4_applies_to_squares_of_symbols_between_minus_1_and_1() {
         let [a, b] = [0, 1].map(Poly::variable);
         let sign = |of: Poly| {
             Certificate::triangle_inequality(&of, &SignEnv::new([0, 1], Effort::default()))
@@ -304,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn rule_6_applies_to_symbols_between_minus_1_and_1_only() {
+    fn rule_5_applies_to_symbols_between_minus_1_and_1_only() {
         let known = SignEnv::new([0, 1], Effort::default());
         let two = || Poly::constant(2);
         let of = |x| Certificate::endpoints(&(two() + Poly::variable(x)), x, &known, &Certificate::termwise);
@@ -314,7 +274,7 @@ mod tests {
 
     /// (1 − x²)¹⁶ (1 + x²) = 4¹⁶ a¹⁶ (1 − a)¹⁶ 2 (a² + (1 − a)²), whose coefficients 2³³ exceed 32 bits.
     #[test]
-    fn rule_6_is_exact_for_large_coefficients() {
+    fn rule_5_is_exact_for_large_coefficients() {
         let x = 0;
         let of_square = |n| Poly::constant(1) + Poly::constant(n) * Poly::variable(x) * Poly::variable(x);
         let of = (0..16).fold(of_square(1), |product, _| product * of_square(-1));

@@ -368,17 +368,21 @@ fn opposite_quantities_have_the_same_absolute_value() {
     assert!(!proved(vec![], Proposition::Equal(one, other + int(1))));
 }
 
-/// Each divisor is positive by its slope.
+/// eˣ lies above its tangent at 0, and below (2 + x)/(2 − x) for 0 < x < 2.
 #[test]
-fn functions_with_the_sign_of_their_slopes_are_limited() {
-    let names = ["a", "b", "c", "d", "u"];
-    let outcome = |count: usize| {
-        let divisors = names[..count].iter().map(|name| x(name).exp() - x(name) - int(1));
-        let sum = divisors.fold(int(0), |sum, divisor| sum + int(1) / divisor);
-        let positive = names.map(|name| above_zero(x(name))).to_vec();
-        outcome(positive, Proposition::Equal(sum.clone(), sum)).map(drop)
-    };
-    assert!(outcome(MAX_RISES).is_ok());
-    let refused = outcome(MAX_RISES + 1);
-    assert!(matches!(refused, Err(ProofError::NotExpressed(said)) if said.contains("too many")));
+fn exponentials_lie_between_their_tangent_and_a_fraction() {
+    let [a, u, z] = ["a", "u", "z"].map(x);
+    let given = || vec![above_zero(a.clone()), not_below_zero(z.clone())];
+    let has = |relation, of: Tree| proved(given(), Proposition::Sign(relation, of));
+    let (positive, weak) = (Relation::Positive, Relation::NonNegative);
+    let tangent = |x: &Tree| x.exp() - int(1) - x;
+    assert!(has(positive, tangent(&a)) && has(positive, tangent(&-&a)));
+    assert!(has(weak, tangent(&u)) && !has(positive, tangent(&u)) && !has(positive, tangent(&z)));
+    assert!(!has(weak, -tangent(&u)) && !has(weak, tangent(&u) - int(1)));
+    assert!(has(positive, int(1) - (-&a).exp()) && has(positive, a.exp() - int(1)));
+    assert!(has(weak, int(1) - (-&z).exp()) && !has(weak, a.exp() - int(2)));
+    let ratio = &a / (&a + int(1));
+    assert!(has(positive, int(1) + &a - ratio.exp()));
+    assert!(has(positive, int(1) + &a - (int(2) * &a / (int(2) + &a)).exp()));
+    assert!(!has(positive, int(1) + &a - (int(3) * &a / (int(2) + &a)).exp()));
 }

@@ -1,6 +1,7 @@
 //! Limits.
 
 use super::*;
+use crate::formula::Proposition;
 
 fn tends(of: Tree, to: impl Into<Tree>, given: &[Hypothesis]) -> Statement {
     Statement::new("f", Proposition::Limit(of, "t", to.into())).assuming(given)
@@ -10,17 +11,15 @@ fn later() -> Hypothesis {
     above_zero(x("t"))
 }
 
-/// Returns a proof with one divisor, which is not factored.
-fn divided(used: &[usize], divisor: Polynomial, signs: Vec<Reason>) -> Leaf {
-    Leaf { divisors: vec![vec![divisor]], ..leaf(used, signs) }
+/// Returns the steps that assume hypotheses in an order, after the signs of these forms.
+fn steps(claim: &Statement, forms: &[Tree], used: &[usize]) -> Vec<Step> {
+    let page = Page::of(claim);
+    forms.iter().map(|of| page.form(of)).chain(used.iter().map(|i| Step::Assume(*i))).collect()
 }
 
-/// Returns a proof for of/(t + 1): the leading coefficients of t and of t + 1 come before and after the sign of t + 1.
-fn over(claim: &Statement, last: impl Into<Tree>) -> Vec<Node> {
-    let page = Page::of(claim);
-    let divisor = || x("t") + n(1);
-    let signs = vec![page.form(1), page.form(divisor()), page.form(1), page.form(last)];
-    vec![node(divided(&[0], page.poly(divisor()), signs))]
+/// Returns a proof of a limit of a quotient by t + 1: the sign of its leading coefficient, t > 0, and its own sign.
+fn over(claim: &Statement) -> Vec<Step> {
+    [steps(claim, &[n(1)], &[0]), vec![Page::of(claim).form(x("t") + n(1))]].concat()
 }
 
 /// (t + 2)/(t + 1) tends to 1.
@@ -28,7 +27,7 @@ fn over(claim: &Statement, last: impl Into<Tree>) -> Vec<Node> {
 fn leading_coefficients_are_the_limit() {
     let t = x("t");
     let claim = tends((&t + n(2)) / (&t + n(1)), 1, &[later()]);
-    accept(&claim, &over(&claim, 0));
+    accept(&claim, &[Node::Leaf(over(&claim))]);
 }
 
 /// For a > 0, a t > 1 holds later. What is known of a comes first.
@@ -36,46 +35,38 @@ fn early() -> Vec<Forged> {
     let [a, c, t] = ["a", "c", "t"].map(x);
     let given = [later(), above_zero(&a), above_zero(&a * &t - n(1))];
     let claim = tends(&t * n(0), 0, &given);
-    let page = Page::of(&claim);
-    let [one, of_a, zero] = [n(1), a.clone(), n(0)].map(|of| page.form(of));
-    accept(&claim, &proof(&[1, 0, 2], vec![one.clone(), of_a.clone(), zero.clone()]));
-    accept(&claim, &proof(&[1, 2, 0], vec![of_a.clone(), one.clone(), zero.clone()]));
+    for order in [[1, 0, 2], [1, 2, 0]] {
+        accept(&claim, &[Node::Leaf(steps(&claim, &[n(1)], &order))]);
+    }
     // From c t > 0 and t > 0 follows c > 0, but only where c t > 0 holds.
     let circular = tends(&t * n(0), 0, &[later(), above_zero(&c * &t)]);
-    let of_circular = Page::of(&circular);
-    let by_fact = of_circular.with(vec![Known::Fact(3)], &t, x("z₁"));
-    let circle = proof(&[0, 1], vec![of_circular.form(1), by_fact, of_circular.form(0)]);
+    let by_fact = Page::of(&circular).show(&c, &[3], &t, x("z₁"));
+    let circle = [steps(&circular, &[n(1)], &[0]), vec![by_fact, Step::Assume(1)]].concat();
+    let row = |flaw, used: &[usize]| forged(flaw, &claim, steps(&claim, &[n(1)], used), Refusal::Limit);
     vec![
-        ("what is known later", claim.clone(), proof(&[0, 2, 1], vec![one.clone(), of_a]), Refusal::Form),
-        ("a hypothesis that is not listed", claim.clone(), proof(&[0], vec![one, zero]), Refusal::Limit),
-        ("a hypothesis that rests on itself", circular, circle, Refusal::Unknown),
+        row("what is known later", &[0, 2, 1]),
+        row("a hypothesis that is not listed", &[0]),
+        forged("a hypothesis that rests on itself", &circular, circle, Refusal::Unknown),
     ]
 }
 
 /// Under t > c, min(c − t + t², c − t) is c − t, which does not hold later. After this contradiction, the minimum could
 /// be its other operand, whose leading coefficient is positive, and 1 could be 2.
-fn contradiction() -> Vec<Forged> {
+fn contradiction() -> Forged {
     let [c, t, z] = ["c", "t", "z"].map(x);
     let (square, below) = (&c - &t + &t * &t, &c - &t);
     let given = [above_zero(&t - &c), above_zero(square.min(&below)), Hypothesis::between(&z, 0, 1)];
     let claim = tends(n(1), 2, &given);
-    let page = Page::of(&claim);
-    let both = || vec![Known::Fact(1), Known::Fact(2)];
-    let [z1, z2] = ["z₁", "z₂"].map(x);
-    let wrong_branch = page.with(both(), &z1 * &z1, &t * &t * &z1 * &z2);
-    let [one, minus, second] = [n(1), n(-1), -(&t * &t)].map(|of| page.form(of));
-    let equal = page.with(both(), z1 + z2, 0);
-    let signs = vec![one.clone(), second, minus, wrong_branch, one, equal];
-    vec![("hypotheses that contradict each other", claim.clone(), proof(&[0, 1, 2], signs), Refusal::Limit)]
+    let second = Page::of(&claim).form(-(&t * &t));
+    let all = [steps(&claim, &[n(1), n(-1)], &[0]), vec![second, Step::Assume(1), Step::Assume(2)]].concat();
+    forged("hypotheses that contradict each other", &claim, all, Refusal::Limit)
 }
 
 fn hypotheses() -> Vec<Forged> {
     let [a, t, y] = ["a", "t", "y"].map(x);
     let row = |flaw, of: &Tree, more: Hypothesis, used: &[usize]| {
         let claim = tends(of.clone(), 0, &[later(), more]);
-        let page = Page::of(&claim);
-        let nodes = proof(used, vec![page.form(1), page.form(-1), page.form(0)]);
-        (flaw, claim, nodes, Refusal::Limit)
+        forged(flaw, &claim, steps(&claim, &[n(1), n(-1)], used), Refusal::Limit)
     };
     let below = above_zero(n(1) - &t);
     let follows = zero(&y * &t - n(1));
@@ -98,63 +89,53 @@ fn degrees() -> Vec<Forged> {
     let zero = tends((&t + n(2)) / (&t + n(1)), 0, &[later()]);
     let weak = tends(n(1) / (n(1) + &c * &t), 0, &[not_below_zero(&c), later()]);
     let page = Page::of(&weak);
-    let divisor = n(1) + &c * &t;
-    let signs = vec![page.form(1), page.form(&divisor), page.form(&c)];
-    let of_weak = node(divided(&[0, 1], page.poly(&divisor), signs));
+    let of_weak = [steps(&weak, &[n(1)], &[0, 1]), vec![page.form(n(1) + &c * &t)]].concat();
+    let row = |flaw, claim: &Statement, refusal| forged(flaw, claim, over(claim), refusal);
     vec![
-        ("a numerator of higher degree", square.clone(), over(&square, 0), Refusal::Limit),
-        ("another coefficient", twice.clone(), over(&twice, 0), Refusal::Identity),
-        ("0 for equal degrees", zero.clone(), over(&zero, 1), Refusal::Goal),
-        ("a leading coefficient that may be 0", weak.clone(), vec![of_weak], Refusal::NotStrict),
+        row("a numerator of higher degree", &square, Refusal::Limit),
+        row("another coefficient", &twice, Refusal::Goal),
+        row("0 for equal degrees", &zero, Refusal::Goal),
+        forged("a leading coefficient that may be 0", &weak, of_weak, Refusal::Limit),
     ]
 }
 
 fn exponentials() -> Vec<Forged> {
     let [c, t] = ["c", "t"].map(x);
     let decay = || (-&t).exp();
-    let positive_c = || [above_zero(&c), later()];
-    let row = |flaw, of: Tree, given: &[Hypothesis], signs: &[Tree]| {
-        let claim = tends(of, 0, given);
+    let row = |flaw, of: Tree, exponents: &[Tree], more: &[Tree]| {
+        let claim = tends(of, 0, &[above_zero(&c), later()]);
         let page = Page::of(&claim);
-        let used: Vec<_> = (0..given.len()).collect();
-        let signs = signs.iter().map(|right| page.form(right)).collect();
-        (flaw, claim.clone(), proof(&used, signs), Refusal::Limit)
+        let names = exponents.iter().map(|of| Step::Exponential(page.formula(of)));
+        let more = more.iter().map(|of| page.form(of));
+        let known = steps(&claim, &[n(1), n(-1)], &[0, 1]).into_iter();
+        forged(flaw, &claim, known.chain(names).chain(more).collect(), Refusal::Limit)
     };
     let vanishing = tends(&t * decay(), 0, &[later()]);
-    let page = Page::of(&vanishing);
-    let leading = vec![page.form(1), page.form(-1), page.form(0)];
-    accept(&vanishing, &proof(&[0], leading));
-    let growth = &t + t.exp();
-    let over_growth = tends(&t / &growth, 1, &[later()]);
-    let of_growth = Page::of(&over_growth);
-    let divisor = || &t + x("E₁");
-    let signs = vec![of_growth.form(1), of_growth.form(divisor()), of_growth.form(1)];
-    let bounded = tends((-&t / (&t + n(1))).exp(), 0, &[later()]);
-    let of_bounded = Page::of(&bounded);
-    let sum = || &t + n(1);
-    let ends = [n(1), sum(), n(-1), n(1)].map(|of| of_bounded.form(of)).into();
+    let name = Step::Exponential(Page::of(&vanishing).formula(&-&t));
+    accept(&vanishing, &[Node::Leaf([steps(&vanishing, &[n(1), n(-1)], &[0]), vec![name]].concat())]);
     let absolute = tends(decay() * (&c * t.exp()).abs(), 0, &[later()]);
-    let of_absolute = Page::of(&absolute);
-    let vanishing = [1, -1, 0].map(|of| of_absolute.form(of)).into();
-    let of_absolute = Leaf { sizes: vec![AbsoluteValue::Atom], ..leaf(&[0], vanishing) };
+    let page = Page::of(&absolute);
+    let names = [
+        Step::Exponential(page.formula(&-&t)),
+        Step::Exponential(page.formula(&t)),
+        Step::AbsoluteValue(page.formula(&(&c * t.exp()))),
+    ];
+    let absolute_steps = [steps(&absolute, &[n(1), n(-1)], &[0]), names.into()].concat();
+    let (growth, bounded) = (&t + t.exp(), -&t / (&t + n(1)));
     vec![
-        ("an absolute value that grows", absolute.clone(), vec![node(of_absolute)], Refusal::Limit),
-        row("an exponential that grows", &t * (&c * &t).exp(), &positive_c(), &[n(1), c.clone()]),
-        row("a product with one that grows", decay() * (&t * &t).exp(), &[later()], &[n(1), n(-1), n(1)]),
-        row("an exponential in an exponent", (t.exp() - &t).exp(), &[later()], &[n(1), n(-1)]),
-        row("an exponent without the variable", (n(-1) * &c + n(0) * &t).exp(), &positive_c(), &[n(1), -&c]),
-        (
-            "an exponential in a denominator",
-            over_growth.clone(),
-            vec![node(divided(&[0], of_growth.poly(divisor()), signs))],
-            Refusal::Limit,
-        ),
-        (
-            "an exponent that tends to a number",
-            bounded.clone(),
-            vec![node(divided(&[0], of_bounded.poly(sum()), ends))],
-            Refusal::Limit,
-        ),
+        forged("an absolute value that grows", &absolute, absolute_steps, Refusal::Limit),
+        row("an exponential that grows", &t * (&c * &t).exp(), &[&c * &t], &[]),
+        row("a product with one that grows", decay() * (&t * &t).exp(), &[-&t, &t * &t], &[]),
+        row("an exponential in an exponent", (t.exp() - &t).exp(), &[t.clone(), t.exp() - &t], &[]),
+        row("an exponent without the variable", (-&c + n(0) * &t).exp(), &[-&c + n(0) * &t], &[]),
+        row("an exponential in a denominator", &t / &growth, std::slice::from_ref(&t), &[&t + x("E₁")]),
+        {
+            let claim = tends(bounded.exp(), 0, &[later()]);
+            let page = Page::of(&claim);
+            let more = vec![page.form(&t + n(1)), Step::Exponential(page.formula(&bounded))];
+            let all = [steps(&claim, &[n(1), n(-1)], &[0]), more].concat();
+            forged("an exponent that tends to a number", &claim, all, Refusal::Limit)
+        },
     ]
 }
 
@@ -162,7 +143,8 @@ fn cases_on_the_way() -> Vec<Forged> {
     let t = x("t");
     let claim = tends(n(0) * &t * (-&t).exp(), 0, &[later()]);
     let page = Page::of(&claim);
-    let both = || node(leaf(&[0], vec![page.form(1), page.form(0)]));
+    let name = || Step::Exponential(page.formula(&-&t));
+    let both = || Node::Leaf([steps(&claim, &[n(1)], &[0]), vec![name()]].concat());
     let on = |of: Tree| vec![cases(page.poly(of), both(), both())];
     accept(&claim, &on(n(1)));
     vec![
@@ -174,7 +156,7 @@ fn cases_on_the_way() -> Vec<Forged> {
 #[test]
 fn forged_limits_are_refused() {
     refuse(early());
-    refuse(contradiction());
+    refuse(vec![contradiction()]);
     refuse(hypotheses());
     refuse(degrees());
     refuse(exponentials());

@@ -1,24 +1,19 @@
 //! Premises of statements, cases, hypotheses and lists.
 
 use super::*;
-use crate::formula::claim::{PRECISION, Rate, induction, limit};
-
-/// Returns the proof that a polynomial is a form itself, with all hypotheses.
-fn direct(claim: &Statement, of: &Tree) -> Vec<Node> {
-    let used: Vec<_> = (0..claim.hypotheses_for(claim.goals()[0].role).len()).collect();
-    proof(&used, vec![Page::of(claim).form(of)])
-}
+use crate::formula::claim::{Rate, induction, limit};
 
 #[test]
 fn names_and_sizes_are_checked() {
     let [u, v, s, t] = ["u", "v", "s₁", "t"].map(x);
     let square = |of: &Tree| non_negative("f", of * of);
-    accept(&square(&u), &direct(&square(&u), &(&u * &u)));
+    let direct = |of: &Tree| vec![leaf(0, vec![Page::of(&square(of)).form(of * of)])];
+    accept(&square(&u), &direct(&u));
     let refused = |claim: Statement, nodes: Vec<Node>| match check(&claim, &nodes) {
         Err(CheckError::Statement(reason)) => reason,
         other => panic!("{}: {other:?}", claim.name()),
     };
-    let reserved = refused(square(&s), direct(&square(&u), &(&u * &u)));
+    let reserved = refused(square(&s), direct(&u));
     assert!(matches!(reserved, Premise::ReservedName("s₁")));
     // Of a computed quantity nothing is assumed but its interval.
     let computed = non_negative("f", &u).assuming(&[Hypothesis::near(&u, &v, 0)]).computing(&u, &v);
@@ -58,21 +53,15 @@ fn limits_are_reached_and_not_exceeded() {
         let all = symbols(count);
         let given: Vec<_> = all.iter().map(not_below_zero).collect();
         let claim = non_negative("f", &all[0]).assuming(&given);
-        check(&claim, &proof(&[0], vec![Reason::Fact(1)])).is_ok()
+        check(&claim, &[leaf(1, vec![])]).is_ok()
     };
     assert_eq!([MAX_VARIABLES, MAX_VARIABLES + 2].map(by_hypothesis), [true, false]);
-    // The square of their sum, which is one more quantity.
+    // The square of their sum, which is one more variable.
     let sum = symbols(MAX_VARIABLES - 1).into_iter().reduce(|sum, y| sum + y).unwrap();
-    let claim = non_negative("f", &sum * &sum);
+    let claim = non_negative("f", &sum * &sum + n(1));
     let page = Page::of(&claim);
-    let square = page.with(vec![Known::Value(page.poly(&sum))], 1, x("z₁") * x("z₁"));
-    accept(&claim, &proof(&[], vec![square]));
-    let claim = non_negative("f", &u * &u);
-    let within = |nesting| {
-        let [outer, inner] = [(); 2].map(|()| Page::of(&claim).0);
-        inner.within(&Problem { nesting, ..outer }).is_ok()
-    };
-    assert_eq!([MAX_NESTING - 1, MAX_NESTING, MAX_NESTING + 1].map(within), [true, false, false]);
+    let square = vec![Step::Square(page.poly(&sum)), page.show(&sum * &sum + n(1), &[1], 1, x("z₁") + n(1))];
+    accept(&claim, &[leaf(0, square)]);
     // The minimum of two formulas is no absolute value.
     let [a, b] = ["a", "b"].map(x);
     assert_eq!(Page::of(&non_negative("f", a.min(&b))).0.table.atoms(), [Atom::Own("a"), Atom::Own("b")]);
@@ -82,36 +71,36 @@ fn limits_are_reached_and_not_exceeded() {
 fn each_goal_has_a_proof() {
     let [u, q] = ["u", "q"].map(x);
     let claim = induction("f", 2, [u.clone()], |[m]| [n(2) * m], [&u * &q]);
-    let trivial = || node(leaf(&[], vec![Page::of(&claim).form(0)]));
+    let trivial = || leaf(0, vec![]);
     accept(&claim, &[trivial(), trivial()]);
     for count in [0, 1, 3] {
         assert!(matches!(check(&claim, &vec![trivial(); count]), Err(CheckError::Goals)), "{count} proofs");
     }
 }
 
-/// |u| = u for u > 0, and −u otherwise.
+/// ⟨u⟩ is u for u > 0, and 0 otherwise.
 #[test]
 fn both_cases_are_proved() {
     let u = x("u");
     let claim = non_negative("f", u.positive_part() + (-&u).positive_part());
     let page = Page::of(&claim);
-    let of = |own: &Tree, opposite: &Tree| {
-        node(leaf(&[], vec![page.form(own), page.form(opposite), page.form(own)]))
-    };
-    let first = || node(leaf(&[], vec![Reason::Fact(1), page.form(-&u), Reason::Fact(1)]));
-    let second = || node(leaf(&[], vec![Reason::Fact(1), page.form(-&u), page.form(-&u)]));
+    let first = || leaf(0, vec![page.show(-&u, &[1], 1, -x("z₁"))]);
+    let second = || leaf(0, vec![page.show(-&u, &[1], 1, -x("z₁"))]);
     accept(&claim, &[cases(page.poly(&u), first(), second())]);
+    let wrong = || leaf(0, vec![page.form(-&u)]);
     let on = |of: Polynomial, a: Node, b: Node| vec![cases(of, a, b)];
-    let none = || node(leaf(&[], vec![]));
-    let lonely = positive("f", &u);
+    let (lonely, weak) = (positive("f", &u), positive("f", u.positive_part() + (-&u).positive_part()));
     let of_lonely = Page::of(&lonely);
-    let lone = || node(leaf(&[], vec![Reason::Fact(1)]));
-    let deep = (0..=MAX_NESTING).fold(first(), |inner, _| cases(page.poly(1), inner, none()));
+    let deep = (0..=MAX_NESTING).fold(first(), |inner, _| cases(page.poly(1), inner, leaf(0, vec![])));
     refuse(vec![
-        ("a case like the other", claim.clone(), on(page.poly(&u), first(), first()), Refusal::Identity),
-        ("cases exchanged", claim.clone(), on(page.poly(&u), second(), first()), Refusal::Identity),
-        ("a case left out", lonely.clone(), on(of_lonely.poly(&u), lone(), lone()), Refusal::Goal),
-        ("no cases", claim.clone(), vec![of(&u, &-&u)], Refusal::Form),
+        (
+            "a case left out",
+            lonely.clone(),
+            on(of_lonely.poly(&u), leaf(0, vec![]), leaf(0, vec![])),
+            Refusal::Goal,
+        ),
+        ("no cases", claim.clone(), vec![wrong()], Refusal::Form),
+        ("a case that is not strict", weak, on(page.poly(&u), first(), second()), Refusal::Goal),
         ("a case of nothing", claim.clone(), on(page.poly(x("z₁")), first(), second()), Refusal::Unknown),
         (
             "cases of another quantity",
@@ -126,27 +115,18 @@ fn both_cases_are_proved() {
 fn uses_of_hypotheses() -> Vec<Forged> {
     let [a, u, q] = ["a", "u", "q"].map(x);
     let claim = positive("f", &a).assuming(&[above_zero(&a)]);
-    let of = |used: &[usize]| proof(used, vec![Page::of(&claim).form(&a)]);
+    let form = Page::of(&claim).form(&a);
     let reciprocal = positive("f", n(1) / &u).assuming(&[above_zero(n(1) / &u)]);
-    let page = Page::of(&reciprocal);
-    let divided = |sign| {
-        let divisors = vec![vec![page.poly(&u)]];
-        vec![node(Leaf { divisors, signs: vec![sign], ..leaf(&[0], vec![]) })]
-    };
     // q ≤ 2 is not known at q = 1 before it is proved there.
     let bounded =
         induction("f", 1, [u.clone()], |[m]| [m], [u.clone()]).assuming(&[not_below_zero(n(2) - &q)]);
     let base = bounded.goals().iter().position(|goal| goal.part == "invariant at the start").unwrap();
-    let goals = bounded.goals().iter().enumerate().map(|(i, goal)| match i == base {
-        true => node(leaf(&[0], vec![Page::of_goal(&bounded, goal).form(1)])),
-        false => node(leaf(&[], vec![Page::of_goal(&bounded, goal).form(0)])),
-    });
-    let early: Vec<_> = goals.collect();
+    let early = (0..bounded.goals().len()).map(|i| leaf(usize::from(i == base), vec![])).collect();
     vec![
-        ("a hypothesis left out", claim.clone(), of(&[]), Refusal::Form),
-        ("a hypothesis that does not exist", claim.clone(), of(&[1]), Refusal::Unknown),
+        forged("a hypothesis left out", &claim, vec![form], Refusal::Form),
+        forged("a hypothesis that does not exist", &claim, assume(2), Refusal::Unknown),
         ("an invariant at the start", bounded, early, Refusal::Unknown),
-        ("a hypothesis that divides by 0", reciprocal.clone(), divided(page.form(&u)), Refusal::Form),
+        forged("a hypothesis that divides by 0", &reciprocal, assume(1), Refusal::Divisor),
     ]
 }
 
@@ -155,99 +135,50 @@ fn intervals() -> Vec<Forged> {
     let opposite = [Hypothesis::between(&u, 0, 1), Hypothesis::between(&u, 1, 0)];
     let half = non_negative("f", n(2) * &u - n(1)).assuming(&opposite);
     let page = Page::of(&half);
-    // 2 u − 1 is t₁, and it is −t₂. The two places are different numbers.
-    let upper = |i: usize| node(leaf(&[i], vec![page.with(vec![Known::Fact(1)], 1, n(4) * x("z₁"))]));
-    let lower = |i: usize| node(leaf(&[i], vec![page.with(vec![Known::Fact(1)], 1, n(-4) * x("z₁"))]));
+    // 2 u − 1 is t₁, and it is −t₂. The two parameters are different numbers.
+    let by = |i: usize, t: &'static str, of: Tree| {
+        Node::Leaf(vec![Step::Assume(i), page.show(of, &[1], 1, n(2) * x("z₁") * x(t))])
+    };
+    let upper = |i: usize| by(i, "t₁", n(2) * x("t₁"));
     let on = |a: Node, b: Node| vec![cases(page.poly(x("t₁")), a, b)];
     let wide = [Hypothesis::between(&u, 0, 1), Hypothesis::between(&u, -4, 4)];
     let within_one = non_negative("f", n(1) - &u).assuming(&wide);
-    let of_wide = Page::of(&within_one);
-    let other_place = vec![of_wide.form(n(2) - n(2) * x("t₁"))];
+    let other = vec![Step::Assume(1), Page::of(&within_one).form(n(2) - n(2) * x("t₁"))];
     vec![
-        ("the place in another interval", half.clone(), on(upper(0), lower(1)), Refusal::Identity),
-        ("the lower half of an interval", half.clone(), on(upper(0), lower(0)), Refusal::Identity),
-        ("the place of a symbol in two intervals", within_one, proof(&[1], other_place), Refusal::Identity),
+        ("the parameter of another interval", half.clone(), on(upper(0), upper(1)), Refusal::Form),
+        forged("the parameter of a symbol in two intervals", &within_one, other, Refusal::Goal),
     ]
 }
 
-fn lists() -> Vec<Forged> {
-    let [a, u] = ["a", "u"].map(x);
+fn divisors() -> Vec<Forged> {
+    let [a, b, u] = ["a", "b", "u"].map(x);
     let claim = positive("f", &a / (&a * &a)).assuming(&[above_zero(&a)]);
-    let page = Page::of(&claim);
-    let factors = |all: &[&Tree]| vec![all.iter().map(|of| page.poly(*of)).collect::<Vec<_>>()];
-    let of = |divisors: Vec<Vec<Polynomial>>, signs: Vec<Reason>| {
-        vec![node(Leaf { divisors, ..leaf(&[0], signs) })]
-    };
-    let fact = || Reason::Fact(1);
-    let right = || of(factors(&[&a, &a]), vec![fact(), fact(), fact()]);
-    accept(&claim, &right());
-    let mut more = right();
-    if let Node::Leaf(leaf) = &mut more[0] {
-        leaf.roundings.push(None);
-    }
-    let long = || vec![fact(), fact(), fact(), fact()];
+    let of = |factors: &[usize]| vec![Step::Assume(0), Step::Divisor(factors.into())];
+    accept(&claim, &[Node::Leaf(of(&[1, 1]))]);
     let free = positive("f", n(1) / (&u * &u));
-    let of_free = Page::of(&free);
-    let square = vec![node(Leaf {
-        divisors: vec![vec![of_free.poly(&u * &u)]],
-        ..leaf(&[], vec![of_free.form(&u * &u), Reason::Fact(1)])
-    })];
-    vec![
-        ("a factor left out", claim.clone(), of(factors(&[&a]), vec![fact(), fact()]), Refusal::Divisor),
-        ("a divisor left out", claim.clone(), of(vec![], vec![fact()]), Refusal::Missing),
-        ("a sign left out", claim.clone(), of(factors(&[&a, &a]), vec![fact(), fact()]), Refusal::Missing),
-        ("a sign too much", claim.clone(), of(factors(&[&a, &a]), long()), Refusal::Unused),
-        (
-            "a divisor too much",
-            claim.clone(),
-            of([factors(&[&a, &a]), factors(&[&a])].concat(), vec![fact(), fact(), fact()]),
-            Refusal::Unused,
-        ),
-        ("a rounding too much", claim, more, Refusal::Unused),
-        ("a divisor that may be 0", free, square, Refusal::NotStrict),
-    ]
-}
-
-/// 1/a > 0 is not proved by the numerator alone.
-fn signs_of_divisors() -> Vec<Forged> {
-    let a = x("a");
+    let square = Page::of(&free).form(&u * &u);
+    // 1/a > 0 is not proved by the numerator alone.
     let negative = positive("f", n(1) / &a).assuming(&[above_zero(-&a)]);
-    let page = Page::of(&negative);
-    let signs = vec![page.with(vec![Known::Fact(1)], 1, -x("z₁")), page.form(1)];
-    let reciprocal = Leaf { divisors: vec![vec![page.poly(&a)]], ..leaf(&[0], signs) };
-    let b = x("b");
+    let of_a = |claim: &Statement| Page::of(claim).show(&a, &[1], 1, -x("z₁"));
     let quotient = positive("f", &b).assuming(&[above_zero(-&a), above_zero(&b / &a)]);
-    let of_quotient = Page::of(&quotient);
-    let signs = vec![of_quotient.with(vec![Known::Fact(1)], 1, -x("z₁")), Reason::Fact(3)];
-    let hypothesis = Leaf { divisors: vec![vec![of_quotient.poly(&a)]], ..leaf(&[0, 1], signs) };
-    let hypothesis = ("a divisor in a hypothesis", quotient.clone(), vec![node(hypothesis)], Refusal::Goal);
+    let negative_steps = vec![Step::Assume(0), of_a(&negative), Page::of(&negative).form(1)];
+    let quotient_steps = vec![Step::Assume(0), of_a(&quotient), Step::Assume(1)];
     vec![
-        hypothesis,
-        ("a divisor counts with its sign", negative.clone(), vec![node(reciprocal)], Refusal::Goal),
+        forged("a factor left out", &claim, of(&[1]), Refusal::Divisor),
+        forged("a divisor left out", &claim, assume(1), Refusal::Divisor),
+        forged("a factor that does not exist", &claim, of(&[1, 2]), Refusal::Unknown),
+        forged("a divisor that may be 0", &free, vec![square.clone()], Refusal::Divisor),
+        forged("a factor that may be 0", &free, vec![square, Step::Divisor(vec![1])], Refusal::NotStrict),
+        forged("a divisor counts with its sign", &negative, negative_steps, Refusal::Goal),
+        forged("a divisor in a hypothesis", &quotient, quotient_steps, Refusal::Goal),
     ]
 }
 
 #[test]
-fn forged_uses_and_lists_are_refused() {
+fn forged_uses_and_divisors_are_refused() {
     refuse(uses_of_hypotheses());
     refuse(intervals());
-    refuse(lists());
-    refuse(signs_of_divisors());
-}
-
-/// The minimum precision is a hypothesis, not a rule.
-#[test]
-fn the_precision_is_positive_by_hypothesis() {
-    let u = x("u");
-    let claim = equal("f", u.round(), u.round());
-    let page = Page::of(&claim);
-    let largest = || page.with(vec![Known::Fact(1)], 1, x("z₁") + n(5));
-    let of = |used: &[usize], sign: Reason| {
-        vec![node(Leaf { roundings: vec![None], ..leaf(used, vec![sign, page.form(0)]) })]
-    };
-    accept(&claim, &of(&[0], largest()));
-    let form = page.form(x(PRECISION) + n(1));
-    refuse(vec![("the precision is not known", claim.clone(), of(&[], form), Refusal::Form)]);
+    refuse(divisors());
 }
 
 /// The derivative of a deep formula is deeper still.
@@ -256,5 +187,5 @@ fn deep_derivatives_are_checked() {
     let u = x("u");
     let deep = (1..MAX_DEPTH).fold(u.clone(), |product, _| product * n(1));
     let claim = derivative("f", deep, &u, 1);
-    accept(&claim, &proof(&[], vec![Page::of(&claim).form(0)]));
+    accept(&claim, &[leaf(0, vec![])]);
 }

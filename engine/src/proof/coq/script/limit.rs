@@ -2,18 +2,17 @@
 
 use super::super::expr::Expr;
 use super::super::lemma::{Lemma, Result};
-use super::leaf::Writer;
+use super::leaf::{Writer, text};
 use super::{Script, Target};
 use crate::formula::{Hypothesis, Proposition};
+use crate::number::Tree;
 use crate::number::tree::Op;
-use crate::proof::check::{Atom, Leaf, Node, Polynomial, Quotient, State};
-use crate::proof::trace::{Step, reread, trace};
+use crate::proof::check::{Atom, Node, Polynomial, Quotient, State, Step};
 
 /// A limit to be proved.
 struct Limit<'l> {
     target: Target<'l>,
-    state: &'l State<'l>,
-    leaf: &'l Leaf,
+    state: State<'l>,
     steps: &'l [Step],
     /// The variable, and its number.
     by: &'static str,
@@ -32,14 +31,16 @@ impl Script {
         proposition: &Proposition,
     ) -> Result<()> {
         Target::with(lemma, hypotheses, proposition, |target| {
-            let Proposition::Limit(of, by, _) = target.problem.proposition else {
+            let Proposition::Limit(_, by, _) = target.problem.proposition else {
                 return Err("no limit".into());
             };
-            let Node::Leaf(leaf) = target.proof()? else { return Err("a limit in cases".into()) };
-            let (state, steps) = trace(target.problem, &leaf, &[])?;
-            let of = reread(state.clone()).translate(of)?;
+            let Node::Leaf(steps) = target.proof()? else { return Err("a limit in cases".into()) };
+            let mut state = State::new(target.problem, &[])?;
+            steps.iter().try_for_each(|step| state.apply(step))?;
+            let of = state.value(target.problem.goal[0])?;
             let x = target.variable(Atom::Own(by))?;
-            Limit { target, state: &state, leaf: &leaf, steps: &steps, by, x, of }.write(self)
+            let target = Target { positive: Some(by), ..target };
+            Limit { target, state, steps: &steps, by, x, of }.write(self)
         })
     }
 }
@@ -99,10 +100,13 @@ impl Limit<'_> {
         let name = Expr::name(format!("s{}", table.atoms().len()));
         let degree = den.degree(self.x);
         let [above, below] = [&rest, &den].map(|part| self.reversed(part, degree, &name));
+        let from = self.lower_bounds().fold("0".to_string(), |rest, (_, bound)| {
+            format!("(Rmax {} {rest})", self.target.lemma.printer.expr(bound).argument())
+        });
         let g = format!("(fun {name} : R => {})", above?.divided_by(below?));
         match &moving[..] {
             [] => {
-                script.line(&format!("apply (limit_at_infinity _ {g}); cbv beta."));
+                script.line(&format!("apply (limit_at_infinity {from} _ {g}); cbv beta."));
                 script.block("-", |script| self.equation(script, None))?;
             }
             [(y, part)] => {
@@ -118,64 +122,68 @@ impl Limit<'_> {
                 }
                 let factor = self.expr(part)?.divided_by(self.expr(&den)?).argument();
                 let rate = self.expr(&rate)?.divided_by(self.expr(&below)?).argument();
-                script.line(&format!("apply (limit_with_decay _ {g} {factor} {rate}); cbv beta."));
+                script.line(&format!("apply (limit_with_decay {from} _ {g} {factor} {rate}); cbv beta."));
                 script.block("-", |script| self.equation(script, Some((*y, rate))))?;
-                script.block("-", |script| {
-                    self.at_zero(script, |writer| Ok(writer.shown(&["Known".into()])))
-                })?;
+                script.block("-", |script| self.at_zero(script, "shown"))?;
             }
             _ => return Err("there is more than one exponential".into()),
         }
-        script.block("-", |script| {
-            self.at_zero(script, |writer| Ok(format!("auto_derive; {}", writer.call("derived"))))
-        })?;
-        let last = self.steps.last().ok_or("a limit without a value")?;
-        script.block("-", |script| {
-            self.at_zero(script, |writer| {
-                let reason = writer.reason(last)?;
-                Ok(writer.shown(&[reason]))
-            })
+        script.block("-", |script| self.at_zero(script, "auto_derive; derived"))?;
+        script.block("-", |script| self.at_zero(script, "shown"))
+    }
+
+    /// Returns the lower bounds of the variable, each with the number of its hypothesis.
+    fn lower_bounds(&self) -> impl Iterator<Item = (usize, &Tree)> {
+        self.target.problem.hypotheses.iter().enumerate().filter_map(|(i, hypothesis)| {
+            match hypothesis.value.op() {
+                Op::Sub(x, bound) if *x.op() == Op::Symbol(self.by) && !bound.symbols().contains(self.by) => {
+                    Some((i, bound))
+                }
+                _ => None,
+            }
         })
     }
 
-    /// Proves that the formula is that in 1/x, for positive x, plus a decaying exponential of this rate.
+    /// Proves that the formula is that in 1/x, for large x, plus a decaying exponential of this rate.
     fn equation(&self, script: &mut Script, decaying: Option<(usize, String)>) -> Result<()> {
         let name = self.target.name(self.x);
-        let all = self.target.problem.hypotheses.iter().zip(&self.target.labels);
-        let labels = all.map(|(hypothesis, label)| {
-            let is_sign = *hypothesis.value.op() == Op::Symbol(self.by);
-            label.clone().or(is_sign.then(|| "X".into()))
-        });
-        let target = Target::new(self.target.lemma, self.target.problem, labels.collect());
         script.line(&format!("intros {name} X."));
+        let mut labels = self.target.labels.clone();
+        for (i, _) in self.lower_bounds().collect::<Vec<_>>().into_iter().rev() {
+            script.line(&format!("apply Rmax_Rlt in X as [K{i} X]. apply Rlt_Rminus in K{i}. functions."));
+            labels[i] = Some(format!("K{i}"));
+        }
+        for (hypothesis, label) in self.target.problem.hypotheses.iter().zip(&mut labels) {
+            if *hypothesis.value.op() == Op::Symbol(self.by) {
+                *label = Some("X".into());
+            }
+        }
+        let target = Target::new(self.target.lemma, self.target.problem, labels);
+        let target = Target { positive: self.target.positive, ..target };
         script.names(&target, |_| true)?;
-        let mut writer = Writer::new(&target, self.state, self.leaf, |_| true)?;
-        writer.add_fact("X".into());
-        for step in self.steps {
-            writer.step(step)?;
-        }
-        let factors = self.of.den.iter().filter_map(|i| self.state.facts.get(*i).ok());
-        writer.divide(factors.map(|(of, _)| of.clone()).collect());
-        writer.finish()?;
+        let mut writer = Writer::new(&target, &[], |_| true)?;
+        writer.steps(self.steps)?;
+        writer.divide(&self.of.den);
+        let variable = text(&Polynomial::variable(self.x)?);
+        writer.add(format!("Shown {variable} (identity []%nat \"+\" {variable})"));
         if let Some((y, rate)) = decaying {
-            writer.equate(format!("same_exponential ({rate} * {name}) _ _ _ eq_refl F{y}"));
+            writer.add(format!("same_exponential ({rate} * {name}) _ _ F{y}"));
         }
-        script.line(&format!("{}.", writer.shown(&["Known".into()])));
+        script.line(&format!("{}.", writer.call("shown")));
         Ok(())
     }
 
     /// Proves what does not depend on the variable, of which nothing is known here: a certificate that needs its
     /// sign shows none.
-    fn at_zero(&self, script: &mut Script, end: impl Fn(&mut Writer) -> Result<String>) -> Result<()> {
+    fn at_zero(&self, script: &mut Script, tactic: &'static str) -> Result<()> {
         script.names(&self.target, |y| !self.is_variable(y))?;
-        let mut writer = Writer::new(&self.target, self.state, self.leaf, |y| !self.is_variable(y))?;
-        for step in self.steps {
-            if let Step::Sign { .. } = step {
-                writer.step(step)?;
-            }
-        }
-        let end = end(&mut writer)?;
-        script.line(&format!("{end}."));
+        let target = Target {
+            tactic,
+            ..Target::new(self.target.lemma, self.target.problem, self.target.labels.clone())
+        };
+        let mut writer = Writer::new(&target, &[], |y| !self.is_variable(y))?;
+        writer.steps(self.steps)?;
+        script.line(&format!("{}.", writer.call(tactic)));
         Ok(())
     }
 }
