@@ -94,11 +94,6 @@ pub enum Step {
     Square(Polynomial),
     /// The numbers of facts of strict sign, whose product will be a divisor.
     Divisor(Vec<usize>),
-    /// The number of a formula x: e to the power of x, and its reciprocal, are atoms from here on.
-    Exponential(usize),
-    /// The number of a formula x: |x| is an atom from here on. That x is the product of this and another atom between
-    /// −1 and 1 is a fact.
-    AbsoluteValue(usize),
     /// An instance of a law: a fact.
     Law(Law),
 }
@@ -119,16 +114,14 @@ pub enum Law {
     AboveTangent(usize),
     /// (2 − x) eˣ ≤ 2 + x for x ≥ 0, and (2 − x) eˣ < 2 + x if x > 0.
     BelowPole(usize),
+    /// x = t |x| for some −1 ≤ t ≤ 1, for the formula x with this number.
+    AbsoluteValue(usize),
+    /// |x| = x if x ≥ 0, and |x| = −x if x ≤ 0, for the formula x with this number.
+    Signed(usize),
     /// |x| = |y| if x = y or x = −y, for the formulas x and y with these numbers.
-    AbsoluteValues {
-        /// x and y.
-        of: [usize; 2],
-    },
-    /// fl(a) ≥ fl(b) for a ≥ b, where `rounded` are the numbers of the formulas fl(a) and fl(b).
-    Order {
-        /// fl(a) and fl(b).
-        rounded: [usize; 2],
-    },
+    SameSize([usize; 2]),
+    /// fl(a) ≥ fl(b) if a ≥ b, for the formulas fl(a) and fl(b) with these numbers.
+    Order([usize; 2]),
 }
 
 /// A proof of a goal under the assumptions of some cases.
@@ -176,8 +169,6 @@ pub enum Refusal {
     Sign,
     /// No fact, or product of facts, is the divisor.
     Divisor,
-    /// The exponential or absolute value of a formula is not an atom yet.
-    Name,
     /// The facts do not state the premise of a law.
     Law,
     /// The formula contains an operation that is not differentiable.

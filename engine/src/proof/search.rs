@@ -36,14 +36,14 @@ mod tests;
 
 pub use self::error::{ProofError, Quantity};
 
-use super::check::{self, Node, Polynomial, Premise, Problem, Proof, Refusal, Sign, State, check};
+use super::check::{self, Node, Polynomial, Premise, Problem, Proof, Refusal, Sign, check};
 use super::effort::MAX_EFFORT;
 use crate::formula::statement::{Proposition, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
 use crate::number::tree::Op;
 use algebra::{Poly, Ratio, UNKNOWN};
-use dictionary::integral;
+use dictionary::{integral, polynomial};
 use leaf::Search;
 use std::collections::BTreeSet;
 
@@ -229,12 +229,12 @@ impl<'a> Attempt<'a> {
         if script.iter().filter_map(case).count() >= MAX_NESTED_CASES {
             return Err(Failure::Branch(search.known.quantity(value.clone())));
         }
-        let (known, state) = (&search.known, State::new(self.problem, &[])?);
+        let known = &search.known;
         let deciding = known.context.sign_numerator(value);
         let original = known.original(&deciding.clone().into());
         let (on, _) = integral(original.num(), original.num());
         let scale = original.checked_div(&on.clone().into()).ok_or("a case of nothing")?;
-        let on = known.polynomial(&on, &state).ok_or("the quantity of a case")?;
+        let on = polynomial(&on).ok_or("the quantity of a case")?;
         let mut nodes = Vec::with_capacity(2);
         for sign in [Sign::Positive, Sign::NonPositive] {
             let (deciding, on, scale) = (deciding.clone(), on.clone(), scale.clone());

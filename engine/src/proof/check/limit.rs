@@ -79,7 +79,7 @@ impl State<'_> {
 
     /// Returns the limit of a quotient: 0 if the denominator has the higher degree, and the quotient of the
     /// leading coefficients if the degrees are equal.
-    pub fn limit_of(&self, of: &Quotient, x: usize) -> Checked<Quotient> {
+    pub fn limit_of(&mut self, of: &Quotient, x: usize) -> Checked<Quotient> {
         let num = self.without_vanishing_terms(&of.num, x)?;
         let (excess, mut coefficients) = self.leading(&Quotient { num, den: of.den.clone() }, x)?;
         let den = self.strict(&coefficients.split_off(1))?;
@@ -103,11 +103,11 @@ impl State<'_> {
     /// - an absolute value that depends on x: it is refused, because it may grow faster than any power;
     /// - its factor, or the error or parameter of a quantity that depends on x: they are between −1 and 1, but
     ///   are refused like the absolute value.
-    pub fn without_vanishing_terms(&self, of: &Polynomial, x: usize) -> Checked<Polynomial> {
+    pub fn without_vanishing_terms(&mut self, of: &Polynomial, x: usize) -> Checked<Polynomial> {
         let (mut rest, problem) = (of.clone(), self.problem);
         let varies = |y: &usize| *y != x && of.degree(*y) > 0 && problem.depends_on(*y, x);
         for y in (0..problem.table.atoms().len()).filter(varies) {
-            let exponent = self.exponent(y).ok_or(Refusal::Limit)?.clone();
+            let exponent = self.exponent(y).map_err(|_| Refusal::Limit)?;
             let (excess, coefficients) = self.leading(&exponent, x)?;
             if excess <= 0 || self.sign_of_leading(&coefficients)? != Sign::Negative {
                 return Err(Refusal::Limit);

@@ -24,10 +24,6 @@ pub struct State<'p> {
     pub signs: Vec<Option<Sign>>,
     /// The hypotheses that were assumed.
     pub assumed: Vec<usize>,
-    /// The formulas whose absolute values are atoms.
-    pub sizes: Vec<usize>,
-    /// The exponents of exponentials that are atoms, with these.
-    pub exponents: Vec<(Quotient, usize)>,
     /// The products of facts that are divisors, with their factors.
     divisors: Vec<(Polynomial, Vec<usize>)>,
     /// The values of symbols in intervals.
@@ -47,9 +43,9 @@ impl<'p> State<'p> {
             _ => None,
         });
         let facts = Facts::new(problem.effort.clone());
-        let (assumed, sizes, exponents, divisors, symbols, values) = Default::default();
+        let (assumed, divisors, symbols, values) = Default::default();
         let signs = signs.collect();
-        let mut state = State { problem, facts, signs, assumed, sizes, exponents, divisors, symbols, values };
+        let mut state = State { problem, facts, signs, assumed, divisors, symbols, values };
         state.add_fact(Polynomial::constant(2), Sign::Positive);
         let by = problem.variable();
         for (case, sign) in cases {
@@ -79,23 +75,6 @@ impl<'p> State<'p> {
                     return Err(Refusal::NotStrict);
                 }
                 self.divisors.push((self.facts.product(factors)?, factors.clone()));
-            }
-            Step::Exponential(of) => {
-                let table = &self.problem.table;
-                let x = table.variable(Atom::Exponential(*of))?;
-                let reciprocal = table.variable(Atom::Exponential(table.number(&Op::Neg(*of))?))?;
-                let value = self.value(*of)?;
-                let opposite = self.facts.opposite(&value)?;
-                self.exponents.extend([(value, x), (opposite, reciprocal)]);
-            }
-            Step::AbsoluteValue(of) => {
-                let value = self.value(*of)?;
-                let size = self.problem.table.variable(Atom::Size(*of))?;
-                let product = Polynomial::variable(size)?
-                    .times(&self.variable(Atom::Factor(*of))?, &self.facts.effort)?;
-                let difference = self.facts.sum(&value, -1, &product.into())?;
-                self.add_quotient(difference, Sign::Zero)?;
-                self.sizes.push(*of);
             }
             Step::Law(law) => {
                 let (of, sign) = self.instance(law)?;
@@ -148,66 +127,77 @@ impl<'p> State<'p> {
 
     /// Returns the quantity of an instance of a law, with its sign.
     fn instance(&mut self, law: &Law) -> Checked<(Quotient, Sign)> {
-        let facts = &self.facts;
-        Ok(match law {
-            Law::Exponents { left, right } => {
-                let [sum, other] = [left, right].map(|all| self.sum_of_exponents(all));
-                if !facts.are_equal(&sum?, &other?)? {
+        use Sign::{NonNegative, NonPositive, Positive, Zero};
+        let of_variable = |x: usize| Polynomial::variable(x).map(Quotient::from);
+        Ok(match *law {
+            Law::Exponents { ref left, ref right } => {
+                let ([sum, product], [other_sum, other]) = (self.product(left)?, self.product(right)?);
+                if !self.facts.are_equal(&sum, &other_sum)? {
                     return Err(Refusal::Law);
                 }
-                let [product, other] = [left, right].map(|all| self.product_of_exponentials(all));
-                (facts.sum(&product?, -1, &other?)?, Sign::Zero)
+                (self.facts.sum(&product, -1, &other)?, Zero)
             }
             Law::AboveTangent(x) => {
-                let exponent = self.exponent(*x).ok_or(Refusal::Unknown)?;
-                let tangent = facts.sum(&Polynomial::constant(1).into(), 1, exponent)?;
+                let exponent = self.exponent(x)?;
+                let tangent = self.facts.sum(&Polynomial::constant(1).into(), 1, &exponent)?;
                 let is_strict =
-                    [Sign::Positive, Sign::Negative].into_iter().any(|sign| facts.have(exponent, sign));
-                let sign = if is_strict { Sign::Positive } else { Sign::NonNegative };
-                (facts.sum(&Polynomial::variable(*x)?.into(), -1, &tangent)?, sign)
+                    [Positive, Sign::Negative].iter().any(|sign| self.facts.have(&exponent, *sign));
+                let sign = if is_strict { Positive } else { NonNegative };
+                (self.facts.sum(&of_variable(x)?, -1, &tangent)?, sign)
             }
             Law::BelowPole(x) => {
-                let exponent = self.exponent(*x).ok_or(Refusal::Unknown)?;
-                let signs = [Sign::Positive, Sign::NonNegative];
-                let sign = signs.into_iter().find(|sign| facts.have(exponent, *sign)).ok_or(Refusal::Law)?;
+                let exponent = self.exponent(x)?;
+                let mut signs = [Positive, NonNegative].into_iter();
+                let sign = signs.find(|sign| self.facts.have(&exponent, *sign)).ok_or(Refusal::Law)?;
                 let two = Polynomial::constant(2).into();
-                let [above, below] = [1, -1].map(|n| facts.sum(&two, n, exponent));
-                let product = below?.times(&Polynomial::variable(*x)?.into(), &facts.effort)?;
-                (facts.sum(&above?, -1, &product)?, sign)
+                let [above, below] = [1, -1].map(|n| self.facts.sum(&two, n, &exponent));
+                let product = below?.times(&of_variable(x)?, &self.facts.effort)?;
+                (self.facts.sum(&above?, -1, &product)?, sign)
             }
-            Law::AbsoluteValues { of: [a, b] } => {
-                let (x, y) = (self.value(*a)?, self.value(*b)?);
+            Law::AbsoluteValue(of) => {
+                let (value, size) = (self.value(of)?, self.variable(Atom::Size(of))?);
+                let product = size.times(&self.variable(Atom::Factor(of))?, &self.facts.effort)?;
+                (self.facts.sum(&value, -1, &product.into())?, Zero)
+            }
+            Law::Signed(of) => {
+                let (value, size) = (self.value(of)?, self.variable(Atom::Size(of))?);
+                let mut signs = [(-1, NonNegative), (1, NonPositive)].into_iter();
+                let (n, _) = signs.find(|(_, sign)| self.facts.have(&value, *sign)).ok_or(Refusal::Law)?;
+                (self.facts.sum(&size.into(), n, &value)?, Zero)
+            }
+            Law::SameSize([a, b]) => {
+                let (x, y) = (self.value(a)?, self.value(b)?);
                 let [sum, difference] = [1, -1].map(|n| self.facts.sum(&x, n, &y));
-                if ![sum?, difference?].iter().any(|of| self.facts.have(of, Sign::Zero)) {
+                if ![sum?, difference?].iter().any(|of| self.facts.have(of, Zero)) {
                     return Err(Refusal::Law);
                 }
-                let [size, other] = [a, b].map(|of| self.variable(Atom::Size(*of)));
-                (size?.plus_multiple(-1, &other?, &self.facts.effort)?.into(), Sign::Zero)
+                let [size, other] = [a, b].map(|of| self.variable(Atom::Size(of)));
+                (self.facts.sum(&size?.into(), -1, &other?.into())?, Zero)
             }
-            Law::Order { rounded: [a, b] } => {
+            Law::Order([a, b]) => {
                 let table = &self.problem.table;
-                let (Op::Rounded(x), Op::Rounded(y)) = (table.op(*a)?, table.op(*b)?) else {
+                let (Op::Rounded(x), Op::Rounded(y)) = (table.op(a)?, table.op(b)?) else {
                     return Err(Refusal::Unknown);
                 };
                 let premise = self.difference(x, y)?;
-                if !self.facts.have(&premise, Sign::NonNegative) {
+                if !self.facts.have(&premise, NonNegative) {
                     return Err(Refusal::Law);
                 }
-                (self.difference(*a, *b)?, Sign::NonNegative)
+                (self.difference(a, b)?, NonNegative)
             }
         })
     }
 
-    fn sum_of_exponents(&self, all: &[usize]) -> Checked<Quotient> {
-        all.iter().try_fold(Polynomial::zero().into(), |sum, x| {
-            self.facts.sum(&sum, 1, self.exponent(*x).ok_or(Refusal::Unknown)?)
-        })
-    }
-
-    fn product_of_exponentials(&self, all: &[usize]) -> Checked<Quotient> {
-        all.iter().try_fold(Polynomial::constant(1).into(), |product: Quotient, x| {
-            product.times(&Polynomial::variable(*x)?.into(), &self.facts.effort)
-        })
+    /// Returns the sum of the exponents of exponentials, and their product.
+    fn product(&mut self, exponentials: &[usize]) -> Checked<[Quotient; 2]> {
+        let mut both = [0, 1].map(|n| Polynomial::constant(n).into());
+        for x in exponentials {
+            let exponent = self.exponent(*x)?;
+            let [sum, product] = &both;
+            let sum = self.facts.sum(sum, 1, &exponent)?;
+            both = [sum, product.times(&Polynomial::variable(*x)?.into(), &self.facts.effort)?];
+        }
+        Ok(both)
     }
 
     /// Returns the variable of an atom as a polynomial.
@@ -216,8 +206,11 @@ impl<'p> State<'p> {
     }
 
     /// Returns the exponent of an exponential.
-    pub fn exponent(&self, x: usize) -> Option<&Quotient> {
-        self.exponents.iter().find(|(_, y)| *y == x).map(|(exponent, _)| exponent)
+    pub fn exponent(&mut self, x: usize) -> Checked<Quotient> {
+        match self.problem.table.atoms().get(x) {
+            Some(Atom::Exponential(of)) => self.value(*of),
+            _ => Err(Refusal::Unknown),
+        }
     }
 
     /// Returns `true` if the value of a formula is known.
@@ -259,9 +252,7 @@ impl<'p> State<'p> {
             }
             Exp(a) => {
                 self.value(a)?;
-                let x = self.problem.table.variable(Atom::Exponential(a))?;
-                self.exponent(x).ok_or(Refusal::Name)?;
-                Polynomial::variable(x)?.into()
+                self.variable(Atom::Exponential(a))?.into()
             }
             PositivePart(a) => {
                 let a = self.value(a)?;
@@ -270,7 +261,7 @@ impl<'p> State<'p> {
             Min(a, b) => {
                 let (first, second) = (self.value(a)?, self.value(b)?);
                 // min(−x, x) is −|x|.
-                if self.problem.table.op(a)? == Neg(b) && self.sizes.contains(&b) {
+                if self.problem.table.op(a)? == Neg(b) {
                     return Ok(self.variable(Atom::Size(b))?.negated()?.into());
                 }
                 self.chosen(&self.facts.sum(&second, -1, &first)?, &first, &second)?

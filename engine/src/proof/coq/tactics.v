@@ -143,6 +143,12 @@ Proof.
     [rewrite Rmin_left | rewrite Rmin_right]; lra.
 Qed.
 
+Lemma own_size x s : Rmin (- x) x = - s -> 0 <= x -> s - x = 0.
+Proof. intros S P. rewrite Rmin_left in S; lra. Qed.
+
+Lemma negated_size x s : Rmin (- x) x = - s -> x <= 0 -> s + x = 0.
+Proof. intros S P. rewrite Rmin_right in S; lra. Qed.
+
 Lemma same_size x y s r : Rmin (- x) x = - s -> Rmin (- y) y = - r -> x - y = 0 -> s - r = 0.
 Proof. intros S R E. replace y with x in R by lra. lra. Qed.
 

@@ -159,7 +159,7 @@ impl<'a> Lines<'a> {
         let mut lines = Vec::new();
         for (i, op) in (0..).map_while(|i| Some((i, self.problem.table.op(i).ok()?))) {
             let (first, second) = match op {
-                Op::Min(_, of) if state.sizes.contains(&of) => continue,
+                Op::Min(a, b) if self.problem.table.op(a) == Ok(Op::Neg(b)) => continue,
                 Op::PositivePart(of) => (of, None),
                 Op::Min(a, b) => (a, Some(b)),
                 _ => continue,
@@ -180,17 +180,18 @@ impl<'a> Lines<'a> {
         let line = match step {
             Step::Assume(i) if self.problem.hypotheses[*i].interval().is_some() => return self.interval(*i),
             Step::Show(of, certificate) if of.terms().len() > 1 => self.shown(of, certificate, names),
-            Step::AbsoluteValue(of) => {
-                let t = &self.atoms[self.problem.table.variable(Atom::Factor(*of)).ok()?];
-                format!(", as {0} = {t} |{0}| with |{t}| ≤ 1", self.formula(*of))
-            }
-            Step::Law(Law::Order { rounded: [a, b] }) => {
+            Step::Law(Law::Order([a, b])) => {
                 return Some(format!("{} ≥ {}, as rounding is monotone", self.formula(*a), self.formula(*b)));
             }
             Step::Law(Law::Exponents { .. }) => ", as the exponents have the same sum".to_string(),
             Step::Law(Law::AboveTangent(_)) => ", as exp(x) > 1 + x for x ≠ 0".to_string(),
             Step::Law(Law::BelowPole(_)) => ", as (2 − x) exp(x) < 2 + x for x > 0".to_string(),
-            Step::Law(Law::AbsoluteValues { .. }) => ", as |x| = |−x|".to_string(),
+            Step::Law(Law::AbsoluteValue(of)) => {
+                let t = &self.atoms[self.problem.table.variable(Atom::Factor(*of)).ok()?];
+                format!(", as {0} = {t} |{0}| with |{t}| ≤ 1", self.formula(*of))
+            }
+            Step::Law(Law::Signed(_)) => ", as |x| is x or −x".to_string(),
+            Step::Law(Law::SameSize(_)) => ", as |x| = |−x|".to_string(),
             Step::Assume(i) => {
                 format!(" by {}", self.printer.registry.format_hypothesis(self.problem.hypotheses[*i]))
             }
@@ -198,7 +199,7 @@ impl<'a> Lines<'a> {
         };
         let name = names.get(&fact);
         let is_plain = match step {
-            Step::Law(_) | Step::AbsoluteValue(_) => false,
+            Step::Law(_) => false,
             Step::Show(of, _) => of.terms().len() <= 1,
             _ => true,
         };
@@ -246,8 +247,9 @@ impl<'a> Lines<'a> {
         Ok(match self.problem.proposition {
             Proposition::Limit(_, by, _) => {
                 let (of, to) = (self.quotient(&a, state, names), self.quotient(&b, state, names));
-                let mut exponentials = state.exponents.iter();
-                let decays = exponentials.any(|(_, x)| a.num.degree(*x) > 0 && self.problem.depends(*x, by));
+                let atoms = self.problem.table.atoms().iter().enumerate();
+                let mut exponentials = atoms.filter(|(_, atom)| matches!(atom, Atom::Exponential(_)));
+                let decays = exponentials.any(|(x, _)| a.num.degree(x) > 0 && self.problem.depends(x, by));
                 let decay = if decays { ", as its exponentials decay" } else { "" };
                 vec![format!("it is {of}, which tends to {to} by its degrees in {by}{decay}")]
             }

@@ -21,7 +21,7 @@ pub fn proof_summary(proof: &Proof) -> String {
 /// Returns the method for a sign.
 fn method(node: &Node) -> &'static str {
     let methods = leaves(node).into_iter().flatten().filter_map(|step| match step {
-        Step::Law(Law::Order { .. }) => Some("order"),
+        Step::Law(Law::Order(_)) => Some("order"),
         Step::Law(Law::AboveTangent(_) | Law::BelowPole(_)) => Some("sign by exponentials"),
         Step::Square(_) => Some("sign by square"),
         _ => None,

@@ -203,7 +203,13 @@ fn an_identity_shows_each_sign() {
         ["s₁ = b − 2 a > 0 by b > 2 a", "b − a > 0, as it is a + s₁"]
     );
     let tangent = lines(positive("", a.exp() - &a - Tree::from(1)), &[&a]);
-    assert_eq!(tangent, ["exp(a) − a − 1 > 0, as exp(x) > 1 + x for x ≠ 0"]);
+    assert_eq!(
+        tangent,
+        [
+            "exp(a) exp(−a) − 1 = 0, as the exponents have the same sum",
+            "exp(a) − a − 1 > 0, as exp(x) > 1 + x for x ≠ 0",
+        ]
+    );
 }
 
 /// Claims about equal formulas are not printed as X = X.

@@ -1,6 +1,6 @@
 //! Polynomials, quotients and certificates as text.
 
-use crate::number::{Exponential, Field, Tree};
+use crate::number::{Field, Tree};
 use crate::proof::ProofError;
 use crate::proof::check::Sign;
 use crate::proof::search::Quantity;
@@ -22,18 +22,22 @@ pub(super) struct Order<'a> {
 
 impl Order<'_> {
     fn product(&self, monomial: &Monomial) -> Option<Tree> {
-        let powers = monomial.powers().filter_map(|(x, n)| Some((self.context.symbol(x)?, n)));
-        let mut powers: Vec<_> = powers.collect();
-        powers.sort_by_key(|(x, _)| (self.factors.iter().position(|name| Symbol::Own(name) == *x), *x));
-        let powers =
-            powers.into_iter().flat_map(|(x, n)| std::iter::repeat_n(Tree::symbol(x.name()), n.into()));
-        powers.chain(monomial.exponent().map(|e| self.ratio(e).exp())).reduce(|a, b| a * b)
+        let mut powers: Vec<_> = monomial.powers().map(|(x, n)| (self.context.symbol(x), x, n)).collect();
+        powers.sort_by_key(|(symbol, x, _)| {
+            let place = self.factors.iter().position(|name| Some(Symbol::Own(name)) == *symbol);
+            (symbol.is_none(), place, *symbol, *x)
+        });
+        let factors = powers.into_iter().flat_map(|(symbol, x, n)| {
+            let factor = symbol.map(|symbol| Tree::symbol(symbol.name()));
+            let factor = factor.or_else(|| self.context.exponentials.get(&x).cloned());
+            std::iter::repeat_n(factor, n.into()).flatten()
+        });
+        factors.reduce(|a, b| a * b)
     }
 
     /// Returns the terms of a sum without their signs, and whether they are negative.
     fn terms(&self, poly: &Poly) -> impl Iterator<Item = (bool, Tree)> {
         poly.terms().rev().map(|(monomial, q)| {
-            let q = q.to_rational();
             let (n, d) = (number(&q.numer().clone().abs()), number(q.denom()));
             let term = match self.product(monomial) {
                 Some(product) => n * product,

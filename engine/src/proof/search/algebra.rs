@@ -1,11 +1,10 @@
-//! Polynomials over ℚ and their quotients, with e^… as an atom: the arithmetic of the search.
+//! Polynomials over ℚ and their quotients: the arithmetic of the search.
 //!
 //! The variables are those of the checker and, after these, the slack variables. All arithmetic is exact. A
-//! [`Poly`] is a sum of distinct monomials with nonzero coefficients, so two polynomials without e^… are the same
-//! function if and only if they are the same sum. With e^…, equal sums are equal functions; the converse can
-//! fail, as equal exponents may have different representations. A [`Ratio`] is not reduced to lowest terms: two
-//! are equal if they are so after cross-multiplication. If the denominator divides the numerator, the division
-//! is carried out, which shortens printed proofs.
+//! [`Poly`] is a sum of distinct monomials with nonzero coefficients, so two polynomials are the same function if and
+//! only if they are the same sum. A [`Ratio`] is not reduced to lowest terms: two are equal if they are so after
+//! cross-multiplication. If the denominator divides the numerator, the division is carried out, which shortens
+//! printed proofs.
 
 pub use super::number::Number;
 use crate::operators;
@@ -22,20 +21,19 @@ pub const VARIABLES: usize = FIRST_SLACK + 32;
 /// The variable in place of a quantity that is too large to be computed. Nothing is known of it.
 pub const UNKNOWN: usize = VARIABLES - 1;
 
-/// A product of powers of variables, times e to the power of a quotient, if any.
+/// A product of powers of variables.
 ///
-/// One exponential suffices, since eᵃ eᵇ = eᵃ⁺ᵇ. The order of monomials is the lexicographic order of the powers.
-/// Multiplication preserves it, which long division requires.
+/// The order of monomials is the lexicographic order of the powers. Multiplication preserves it, which long division
+/// requires.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Monomial {
     powers: [u8; VARIABLES],
-    pub(super) exponent: Option<Arc<Ratio>>,
 }
 
 impl Monomial {
     /// Returns the empty product.
     pub fn one() -> Self {
-        Monomial { powers: [0; VARIABLES], exponent: None }
+        Monomial { powers: [0; VARIABLES] }
     }
 
     /// Returns a variable as a monomial.
@@ -60,7 +58,7 @@ impl Monomial {
 
     /// Returns the variable if the monomial is a single variable.
     pub fn as_variable(&self) -> Option<usize> {
-        let mut powers = self.powers().filter(|_| self.exponent.is_none());
+        let mut powers = self.powers();
         powers.next().filter(|(_, n)| *n == 1 && powers.next().is_none()).map(|(x, _)| x)
     }
 
@@ -79,11 +77,6 @@ impl Monomial {
         set.iter_mut().zip(&self.powers).for_each(|(is_in, n)| *is_in |= *n > 0);
     }
 
-    /// Returns the exponent of e, if any.
-    pub fn exponent(&self) -> Option<&Ratio> {
-        self.exponent.as_deref()
-    }
-
     /// Returns the product; the [unknown](UNKNOWN) variable if a power would exceed 254, to which only repeated
     /// substitution of pivots leads.
     pub fn times(&self, other: &Self) -> Self {
@@ -95,16 +88,12 @@ impl Monomial {
         if largest == u8::MAX {
             return Monomial::of(UNKNOWN);
         }
-        let exponent = match (&self.exponent, &other.exponent) {
-            (None, e) | (e, None) => e.clone(),
-            (Some(a), Some(b)) => Some(&**a + &**b).filter(|sum| !sum.is_zero()).map(Arc::new),
-        };
-        Monomial { powers, exponent }
+        Monomial { powers }
     }
 
-    /// Returns the quotient if the divisor divides `self` and has no e^….
+    /// Returns the quotient if the divisor divides `self`.
     pub fn checked_div(&self, divisor: &Self) -> Option<Self> {
-        if divisor.exponent.is_some() || !self.is_divisible_by(divisor) {
+        if !self.is_divisible_by(divisor) {
             return None;
         }
         let mut rest = self.clone();
@@ -112,23 +101,18 @@ impl Monomial {
         Some(rest)
     }
 
-    /// Returns `true` if `other` divides `self`, disregarding e^….
+    /// Returns `true` if `other` divides `self`.
     pub fn is_divisible_by(&self, other: &Self) -> bool {
         self.powers.iter().zip(&other.powers).fold(true, |is_divisible, (n, m)| is_divisible & (n >= m))
     }
 
-    /// Returns the greatest common divisor, which has no e^….
+    /// Returns the greatest common divisor.
     pub fn common(mut self, other: &Self) -> Self {
         self.powers.iter_mut().zip(&other.powers).for_each(|(n, m)| *n = (*n).min(*m));
-        self.without_exponential()
+        self
     }
 
-    /// Returns the monomial without its e^….
-    pub fn without_exponential(&self) -> Self {
-        Monomial { powers: self.powers, exponent: None }
-    }
-
-    /// Returns the product of the powers of those variables for which `is_in` is `true`, with e^….
+    /// Returns the product of the powers of those variables for which `is_in` is `true`.
     pub fn only(&self, is_in: impl Fn(usize) -> bool) -> Self {
         let mut rest = self.clone();
         rest.powers.iter_mut().enumerate().filter(|(x, _)| !is_in(*x)).for_each(|(_, n)| *n = 0);
@@ -154,9 +138,6 @@ pub struct Poly(Arc<Vec<(Monomial, Number)>>);
 
 /// Maximum number of terms of a product, before equal ones are added, and of steps of a division.
 const MAX_TERMS: usize = 1 << 18;
-
-/// Maximum nesting of e^… in exponents. Shared parts of exponents are translated again at each occurrence.
-const MAX_NESTING: u32 = 4;
 
 /// A quotient of polynomials, whose denominator is not the zero polynomial.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -202,7 +183,7 @@ impl Poly {
 
     /// Returns the sum of distinct terms in ascending order; the unknown quantity if a coefficient is too large.
     fn of_sorted(mut terms: Vec<(Monomial, Number)>) -> Self {
-        terms.retain(|(_, q)| q.sign().is_ne());
+        terms.retain(|(_, q)| q.cmp0().is_ne());
         if terms.iter().any(|(_, q)| q.is_too_large()) {
             return Poly::unknown();
         }
@@ -227,16 +208,6 @@ impl Poly {
     /// Returns a variable as a polynomial.
     pub fn variable(x: usize) -> Self {
         Monomial::of(x).into()
-    }
-
-    /// Returns e to the power of a quotient.
-    pub fn exponential(exponent: Ratio) -> Self {
-        if exponent.nesting() >= MAX_NESTING {
-            return Poly::unknown();
-        }
-        let mut monomial = Monomial::one();
-        monomial.exponent = Some(exponent).filter(|e| !e.is_zero()).map(Arc::new);
-        monomial.into()
     }
 
     fn plus(&self, other: &Self) -> Self {
@@ -284,7 +255,7 @@ impl Poly {
 
     /// Returns `true` if `self` is the number 1.
     pub fn is_one(&self) -> bool {
-        matches!(&self.0[..], [(m, q)] if *m == Monomial::one() && q.is_one())
+        matches!(&self.0[..], [(m, q)] if *m == Monomial::one() && **q == 1)
     }
 
     /// Returns the monomials in ascending order with their coefficients.
@@ -296,17 +267,7 @@ impl Poly {
         self.0.iter().map(|(m, _)| m)
     }
 
-    /// Returns the exponents of all e^… that are not themselves in exponents.
-    pub fn exponents(&self) -> impl Iterator<Item = &Ratio> {
-        self.monomials().filter_map(Monomial::exponent)
-    }
-
-    /// Returns `true` if a term contains e^….
-    pub fn has_exponentials(&self) -> bool {
-        self.exponents().next().is_some()
-    }
-
-    /// Returns the variables in order, including those in exponents.
+    /// Returns the variables in order.
     pub fn variables(&self) -> Vec<usize> {
         let mut set = [false; VARIABLES];
         self.add_variables(&mut set);
@@ -314,17 +275,7 @@ impl Poly {
     }
 
     fn add_variables(&self, set: &mut [bool; VARIABLES]) {
-        for monomial in self.monomials() {
-            monomial.add_variables(set);
-            if let Some(exponent) = monomial.exponent() {
-                [&exponent.num, &exponent.den].into_iter().for_each(|part| part.add_variables(set));
-            }
-        }
-    }
-
-    /// Returns `true` if a variable occurs in an exponent.
-    pub fn has_in_exponent(&self, x: usize) -> bool {
-        self.exponents().any(|exponent| exponent.variables().contains(&x))
+        self.monomials().for_each(|monomial| monomial.add_variables(set));
     }
 
     /// Returns the degree in a variable.
@@ -332,7 +283,7 @@ impl Poly {
         self.monomials().map(|m| m.degree(x)).max().unwrap_or(0)
     }
 
-    /// Returns the coefficient of xⁿ, disregarding occurrences of x in exponents.
+    /// Returns the coefficient of xⁿ.
     pub fn coefficient(&self, x: usize, n: u8) -> Poly {
         let of_power = self.0.iter().filter(|(m, _)| m.degree(x) == n);
         of_power.map(|(m, q)| (m.without(x), q.clone())).collect()
@@ -343,7 +294,7 @@ impl Poly {
         (usize::from(self.degree(x)) + 1 == N).then(|| std::array::from_fn(|n| self.coefficient(x, n as u8)))
     }
 
-    /// Returns the exact quotient, if there is one and the divisor's last term has no e^….
+    /// Returns the exact quotient, if there is one.
     pub fn checked_div(&self, divisor: &Self) -> Option<Self> {
         let [others @ .., (leading, coefficient)] = &divisor.0[..] else { return None };
         if divisor.is_one() {
@@ -354,11 +305,11 @@ impl Poly {
         if ends.into_iter().any(|(term, by)| term.is_some_and(|(m, _)| !m.is_divisible_by(by))) {
             return None;
         }
-        let inverse = coefficient.recip();
+        let inverse = Number::from(coefficient.recip_ref());
         let mut rest: BTreeMap<_, _> = self.0.iter().cloned().collect();
         let (mut quotient, mut steps) = (Vec::new(), 0);
         while let Some((m, q)) = rest.pop_last() {
-            if q.sign().is_eq() {
+            if q.cmp0().is_eq() {
                 continue;
             }
             let (m, q) = (m.checked_div(leading)?, q * &inverse);
@@ -383,24 +334,22 @@ impl Poly {
     /// Returns the greatest product of powers of variables that divides every term.
     pub fn common_monomial(&self) -> Monomial {
         let mut monomials = self.monomials();
-        let first = monomials.next().map_or(Monomial::one(), Monomial::without_exponential);
+        let first = monomials.next().cloned().unwrap_or_else(Monomial::one);
         monomials.fold(first, Monomial::common)
     }
 
-    /// Replaces each occurrence of a monomial, also in exponents, by a quotient.
+    /// Replaces each occurrence of a monomial by a quotient.
     ///
     /// The value does not change wherever the monomial equals the quotient.
     pub fn replace(&self, pivot: &Monomial, by: &Ratio) -> Ratio {
-        // The coefficients of the powers of the pivot, with the replacement already made in exponents.
+        // The coefficients of the powers of the pivot.
         let mut by_power: Vec<Vec<(Monomial, Number)>> = Vec::new();
         for (m, q) in self.0.iter() {
-            let (mut rest, mut power) = (m.without_exponential(), 0);
+            let (mut rest, mut power) = (m.clone(), 0);
             while let Some(quotient) = rest.checked_div(pivot) {
                 rest = quotient;
                 power += 1;
             }
-            let exponent = m.exponent().map(|e| e.replace(pivot, by)).filter(|e| !e.is_zero());
-            rest.exponent = exponent.map(Arc::new);
             by_power.resize(by_power.len().max(power + 1), Vec::new());
             by_power[power].push((rest, q.clone()));
         }
@@ -411,9 +360,9 @@ impl Poly {
         highest_first.fold(Ratio::zero(), |sum, coefficient| sum * by + Ratio::from(coefficient))
     }
 
-    /// Returns `true` if a monomial occurs in a term or an exponent.
+    /// Returns `true` if a monomial occurs in a term.
     pub fn contains(&self, pivot: &Monomial) -> bool {
-        self.monomials().any(|m| m.is_divisible_by(pivot)) || self.exponents().any(|e| e.contains(pivot))
+        self.monomials().any(|m| m.is_divisible_by(pivot))
     }
 }
 
@@ -451,18 +400,13 @@ impl Ratio {
         if num.is_zero() || den.is_one() {
             return num.into();
         }
-        // The e^… of a denominator with a single term moves to the numerator.
-        if let [(Monomial { exponent: Some(e), .. }, _)] = &den.0[..] {
-            let inverse = Poly::exponential(-&**e);
-            (num, den) = (num * &inverse, den * inverse);
-        }
         if let Some(quotient) = num.checked_div(&den) {
             return quotient.into();
         }
         if let Some((_, q)) = den.0.last()
-            && !q.is_one()
+            && **q != 1
         {
-            let inverse = Poly::constant(q.recip());
+            let inverse = Poly::constant(q.recip_ref());
             (num, den) = (num * &inverse, den * inverse);
         }
         Ratio { num, den }
@@ -500,29 +444,9 @@ impl Ratio {
         Some(self * Ratio::new(other.den.clone(), other.num.clone()))
     }
 
-    /// Returns the coefficients of all e^…, and that of the terms without one, by their exponents.
-    pub fn by_exponential(&self) -> Vec<(Ratio, Ratio)> {
-        let mut all: Vec<(Ratio, Poly)> = Vec::new();
-        for (m, q) in self.num.terms() {
-            let exponent = m.exponent().cloned().unwrap_or_else(Ratio::zero);
-            let term = Poly::from_iter([(m.without_exponential(), q.clone())]);
-            match all.iter_mut().find(|(known, _)| *known == exponent) {
-                Some((_, sum)) => *sum = &*sum + term,
-                None => all.push((exponent, term)),
-            }
-        }
-        all.into_iter().map(|(e, sum)| (e, Ratio::new(sum, self.den.clone()))).collect()
-    }
-
     /// Returns `true` if the numerator is the zero polynomial.
     pub fn is_zero(&self) -> bool {
         self.num.is_zero()
-    }
-
-    /// Returns the nesting depth of e^… in exponents.
-    fn nesting(&self) -> u32 {
-        let exponents = self.num.exponents().chain(self.den.exponents());
-        exponents.map(|exponent| 1 + exponent.nesting()).max().unwrap_or(0)
     }
 
     /// Returns the variables of numerator and denominator in order.
@@ -559,26 +483,17 @@ mod tests {
     #[test]
     fn exact_division_and_common_monomials() {
         let [u, v] = [0, 1].map(Poly::variable);
-        let e = Poly::exponential(v.clone().into());
+        let e = Poly::variable(2);
         for divisor in [&u + &v, &u + &e, &u * &v - Poly::constant(2)] {
             assert_eq!((&divisor * &v).checked_div(&divisor), Some(v.clone()));
             assert_eq!((&divisor * &v + &e).checked_div(&divisor), None);
             assert_eq!(divisor.common_monomial(), Monomial::one());
-            assert_eq!((&divisor * &u * &v * &e).common_monomial(), Monomial::of(0).times(&Monomial::of(1)));
+            assert_eq!(
+                (&divisor * &u * &v * &e).common_monomial(),
+                Monomial::of(0).times(&Monomial::of(1)).times(&Monomial::of(2))
+            );
         }
         assert_eq!(u.checked_div(&Poly::zero()), None);
-    }
-
-    #[test]
-    fn exponentials_of_a_single_term_move_to_the_numerator() {
-        let [u, c, v] = [0, 1, 2].map(Poly::variable);
-        let e = Poly::exponential(v.clone().into());
-        let quotient = Ratio::from(u.clone()).checked_div(&(&c * &e).into()).unwrap();
-        assert_eq!((quotient.num() * &e, quotient.den()), (u.clone(), &c));
-        // With several terms they stay.
-        let several = &c + &e;
-        let quotient = Ratio::from(u.clone()).checked_div(&several.clone().into()).unwrap();
-        assert_eq!((quotient.num(), quotient.den()), (&u, &several));
     }
 
     #[test]
@@ -613,13 +528,6 @@ mod tests {
             replaced.num() * &w * &w,
             (&v * &v + &v * &w + Poly::constant(3) * &w * &w) * replaced.den()
         );
-    }
-
-    #[test]
-    fn variables_in_exponents_are_recognised() {
-        let [u, v] = [0, 1].map(Poly::variable);
-        let power = &u + Poly::exponential(v.into());
-        assert_eq!([0, 1].map(|x| power.has_in_exponent(x)), [false, true]);
     }
 
     /// A product of 2⁹ terms and as many is computed, one with a term more is not.

@@ -7,7 +7,7 @@ use super::rules::{Certificate, SignEnv};
 use super::symbol::Symbol;
 use crate::formula::Hypothesis;
 use crate::formula::claim::{PRECISION, SCALES};
-use crate::number::Tree;
+use crate::number::{Exponential, Tree};
 use crate::proof::check::{Atom, Problem, Sign};
 use std::collections::BTreeMap;
 
@@ -23,6 +23,8 @@ pub(in crate::proof) struct Context {
     pub(in crate::proof) signs: SignEnv,
     /// The variables in messages.
     symbols: BTreeMap<usize, Symbol>,
+    /// The exponentials by their variables.
+    pub(in crate::proof) exponentials: BTreeMap<usize, Tree>,
     /// The formulas whose errors e₁, e₂, … are.
     pub(in crate::proof) roundings: Vec<Tree>,
     /// The pivots and their values.
@@ -36,11 +38,19 @@ pub(in crate::proof) struct Context {
 impl Context {
     /// Creates a context with the intervals of the problem, in which powers of two are positive.
     pub(in crate::proof) fn new(problem: &Problem) -> Self {
-        let (assumptions, symbols, roundings, substitutions, retained) = Default::default();
+        let (assumptions, symbols, exponentials, roundings, substitutions, retained) = Default::default();
         let units = (0..FIRST_SLACK).filter(|x| problem.table.is_unit(*x));
         let (signs, largest) = (SignEnv::new(units, problem.effort.clone()), Poly::constant(1));
-        let mut context =
-            Context { assumptions, signs, symbols, roundings, substitutions, retained, largest };
+        let mut context = Context {
+            assumptions,
+            signs,
+            symbols,
+            exponentials,
+            roundings,
+            substitutions,
+            retained,
+            largest,
+        };
         for (x, atom) in problem.table.atoms().iter().enumerate() {
             let symbol = match atom {
                 Atom::Own(name) => Some(Symbol::Own(name)),
@@ -57,7 +67,13 @@ impl Context {
                     });
                     context.next_symbol(Symbol::IntervalParameter)
                 }
-                _ => None,
+                Atom::Exponential(of) => {
+                    context.signs.set(x, Some(Sign::Positive));
+                    let exponential = problem.table.formula(*of).map(Tree::exp);
+                    context.exponentials.extend(exponential.map(|tree| (x, tree)));
+                    None
+                }
+                Atom::Size(_) | Atom::Factor(_) => None,
             };
             if symbol == Some(Symbol::Own(PRECISION)) {
                 context.largest = Poly::variable(x) + Poly::constant(1);
@@ -307,8 +323,11 @@ impl PivotChoice<'_> {
         let variables = self.value.num().variables();
         let has_errors = variables.iter().any(|x| self.known.is_unit(*x));
         self.free_symbol(&variables, has_errors).or_else(|| match has_errors {
-            true => self.signed_symbol(&variables).or_else(|| self.product()),
-            false => self.product().or_else(|| self.signed_symbol(&variables)),
+            true => self.signed_symbol(&variables).or_else(|| self.product(|_, _| true)),
+            false => self
+                .product(|signed, all| signed < all)
+                .or_else(|| self.signed_symbol(&variables))
+                .or_else(|| self.product(|_, _| true)),
         })
     }
 
@@ -325,12 +344,12 @@ impl PivotChoice<'_> {
         first.map(|x| Monomial::of(*x))
     }
 
-    /// Returns the product with the fewest symbols of known sign.
-    fn product(&self) -> Option<Monomial> {
+    /// Returns the product with the fewest symbols of known sign, by the numbers of these and of all its symbols.
+    fn product(&self, is_chosen: fn(usize, usize) -> bool) -> Option<Monomial> {
+        let signed = |m: &Monomial| m.powers().filter(|(x, _)| self.context.signs.get(*x).is_some()).count();
         let monomials = self.value.num().terms().map(|(m, _)| m);
         let products = monomials.filter(|m| m.count() > 1 && !m.powers().any(|(x, _)| self.known.is_unit(x)));
-        let first =
-            products.min_by_key(|m| m.powers().filter(|(x, _)| self.context.signs.get(*x).is_some()).count());
+        let first = products.filter(|m| is_chosen(signed(m), m.count())).min_by_key(|m| signed(m));
         first.filter(|m| solve_for(m, self.equation, self.known).is_some()).cloned()
     }
 
@@ -355,7 +374,7 @@ pub(in crate::proof) fn solve_for(pivot: &Monomial, of: &Poly, known: &SignEnv) 
     } else {
         let (_, coefficient) = of.terms().find(|(m, _)| *m == pivot)?;
         let rest = of - Poly::from_iter([(pivot.clone(), coefficient.clone())]);
-        (-rest * Poly::constant(coefficient.recip())).into()
+        (-rest * Poly::constant(coefficient.recip_ref())).into()
     };
     (!by.contains(pivot)).then_some(by)
 }

@@ -1,10 +1,10 @@
-//! Equations in certificates: hypotheses v = 0, and products of exponentials.
+//! Equations in certificates: assumptions v = 0.
 
 use super::algebra::{Monomial, Poly, Ratio};
 use super::assumption::AssumptionUse;
-use super::dictionary::{integral, opaque};
+use super::dictionary::{integral, poly};
 use super::finder::{Finder, Result};
-use crate::proof::check::{Atom, Certificate, Law, Polynomial, Step};
+use crate::proof::check::{Atom, Certificate, Polynomial};
 
 /// An equation v = 0, as a combination of quantities that are 0.
 struct Equation {
@@ -81,9 +81,7 @@ impl Finder<'_, '_> {
     /// Returns a certificate with l f = r, for forms l and r whose difference vanishes, maybe by equations.
     pub fn equated(&mut self, of: &Polynomial, form: Ratio) -> Result<Certificate> {
         let state = &self.proof.state;
-        let left = self.guide.without_exponentials(form.den(), state).ok_or("an exponential")?;
-        let right = self.guide.without_exponentials(form.num(), state).ok_or("an exponential")?;
-        let (left, right) = without_common_factor(left, right);
+        let (left, right) = without_common_factor(form.den().clone(), form.num().clone());
         let (mut left, mut right) = integral(&left, &right);
         let found = self.finished(&left, &right)?;
         let [one, other] = state.sides(of, &found)?;
@@ -91,12 +89,12 @@ impl Finder<'_, '_> {
         if difference.is_zero() {
             return Ok(found);
         }
-        let sum = self.vanishing(opaque(&difference), &mut left, &mut right)?;
+        let sum = self.vanishing(poly(&difference), &mut left, &mut right)?;
         let (left, right) = integral(&left, &(right + sum));
         self.finished(&left, &right)
     }
 
-    /// Returns the equations among the hypotheses and exponentials.
+    /// Returns the equations among the assumptions.
     fn equations(&mut self) -> Result<Vec<Equation>> {
         let guide = self.guide;
         let atoms = guide.problem.table.atoms().iter();
@@ -115,37 +113,11 @@ impl Finder<'_, '_> {
                 }
                 _ => continue,
             };
-            let value = opaque(&self.proof.state.facts.get(fact)?.0);
+            let value = poly(&self.proof.state.facts.get(fact)?.0);
             let (pivot, sum) = (pivot.clone(), self.variable(fact));
             equations.push(Equation { pivot, value, sum, symbols });
         }
-        self.add_products_of_exponentials(&mut equations, symbols)?;
         Ok(equations)
-    }
-
-    /// Adds eᵃ eᵇ = eᶜ for a + b = c, where eᵇ and eᶜ may be 1.
-    fn add_products_of_exponentials(&mut self, equations: &mut Vec<Equation>, symbols: usize) -> Result<()> {
-        let state = &self.proof.state;
-        let exponents = state.exponents.iter().map(|(e, x)| (*x, self.guide.ratio(e, state)));
-        let exponents: Vec<_> = exponents.collect();
-        let singles = exponents.iter().map(|(x, a)| (vec![*x], a.clone()));
-        let pairs = exponents.iter().enumerate().flat_map(|(i, (x, a))| {
-            let others = exponents[i..].iter();
-            others.map(move |(y, b)| (vec![*x, *y], a + b))
-        });
-        for (left, sum) in singles.chain(pairs) {
-            let mut others = exponents.iter().take_while(|(z, _)| left != [*z]);
-            let right = match others.find(|(_, c)| (c - &sum).is_zero()) {
-                _ if sum.is_zero() => Vec::new(),
-                Some((z, _)) => vec![*z],
-                None => continue,
-            };
-            let pivot = left.iter().fold(Monomial::one(), |product, x| product.times(&Monomial::of(*x)));
-            let fact = self.proof.add_once(Step::Law(Law::Exponents { left, right }))?;
-            let value = opaque(&self.proof.state.facts.get(fact)?.0);
-            equations.push(Equation { pivot, value, sum: self.variable(fact), symbols });
-        }
-        Ok(())
     }
 
     /// Returns a combination of quantities that are 0 which is `difference`. Multiplies the forms by what the

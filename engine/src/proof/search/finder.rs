@@ -3,7 +3,7 @@
 use super::Failure;
 use super::algebra::{Monomial, Poly, Ratio};
 use super::assumption::{AssumptionUse, SignedRatio};
-use super::dictionary::opaque;
+use super::dictionary::{poly, polynomial};
 use super::knowledge::{AssumedFact, Knowledge};
 use super::leaf::Steps;
 use super::symbol::Symbol;
@@ -43,10 +43,10 @@ impl<'f, 'p> Finder<'f, 'p> {
 
     /// Shows a multiple, or divisor, of a fact about an order of rounded formulas. Returns `false` if it is none.
     pub fn by_order(guide: &Knowledge<'p>, of: &Polynomial, proof: &mut Steps<'p>) -> Result<bool> {
-        let value = guide.poly(of, &proof.state);
+        let value = poly(of);
         let count = proof.state.facts.iter().len();
         for i in (0..count).rev() {
-            let fact = guide.poly(&proof.state.facts.get(i)?.0, &proof.state);
+            let fact = poly(&proof.state.facts.get(i)?.0);
             let (quotient, is_multiple) = match value.checked_div(&fact) {
                 Some(quotient) => (quotient, true),
                 None => match fact.checked_div(&value) {
@@ -86,7 +86,7 @@ impl<'f, 'p> Finder<'f, 'p> {
     /// Returns the polynomial of a fact: its number if it is one.
     pub fn fact(&mut self, i: usize) -> Poly {
         match self.proof.state.facts.get(i) {
-            Ok((of, _)) if of.has_only(|_| false) => opaque(of),
+            Ok((of, _)) if of.has_only(|_| false) => poly(of),
             _ => self.variable(i),
         }
     }
@@ -97,11 +97,11 @@ impl<'f, 'p> Finder<'f, 'p> {
             return Err("too deep".into());
         }
         let state = &self.proof.state;
-        let of = self.guide.polynomial(value, state).ok_or("a lemma")?;
+        let of = polynomial(value).ok_or("a lemma")?;
         let fact = match state.facts.strict(&of) {
             Some(fact) => fact,
             None => {
-                let signed = self.guide.sign(self.guide.reduced(&of, state)).ok_or("the sign of a lemma")?;
+                let signed = self.guide.sign(self.guide.reduced(&of)).ok_or("the sign of a lemma")?;
                 Finder::new(self.guide, self.proof, self.depth + 1).shown(&of, &[], &signed)?
             }
         };
@@ -117,8 +117,7 @@ impl<'f, 'p> Finder<'f, 'p> {
 
     /// Returns the certificate for l and r in original variables and facts, with integers as coefficients.
     pub fn finished(&self, left: &Poly, right: &Poly) -> Result<Certificate> {
-        let [left, right] =
-            [left, right].map(|of| self.guide.polynomial(of, &self.proof.state).ok_or("a form"));
+        let [left, right] = [left, right].map(|of| polynomial(of).ok_or("a form"));
         Ok(Certificate { known: self.facts.clone(), left: left?, right: right? })
     }
 

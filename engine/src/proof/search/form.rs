@@ -3,7 +3,7 @@
 use super::algebra::{Poly, Ratio};
 use super::assumption::SignedRatio;
 use super::choice;
-use super::dictionary::integral;
+use super::dictionary::{integral, polynomial};
 use super::finder::{Finder, Result};
 use super::rules::{Certificate, Rule};
 use crate::proof::check::Step;
@@ -37,8 +37,7 @@ impl Finder<'_, '_> {
     fn cancelled(&self, den: &Poly, facts: &[usize]) -> (Poly, Vec<usize>) {
         let (mut den, mut rest) = (den.clone(), Vec::new());
         for i in facts {
-            let fact =
-                self.proof.state.facts.get(*i).map(|(of, _)| self.guide.reduced(of, &self.proof.state));
+            let fact = self.proof.state.facts.get(*i).map(|(of, _)| self.guide.reduced(of));
             let quotient = fact.ok().filter(|fact| fact.den().is_one() && !fact.is_zero());
             match quotient.and_then(|fact| den.checked_div(fact.num())) {
                 Some(quotient) => den = quotient,
@@ -96,7 +95,7 @@ impl Finder<'_, '_> {
         if [scale.num(), scale.den()].into_iter().any(|part| part.terms().len() != 1) {
             return Err("the scale of a root".into());
         }
-        let of = self.guide.polynomial(&value, &self.proof.state).ok_or("a root")?;
+        let of = polynomial(&value).ok_or("a root")?;
         let fact = self.proof.add(Step::Square(of))?;
         let square = &scale * &scale * Ratio::from(self.variable(fact));
         let left = Poly::constant(4) * leading * &left_of_rest * square.den();

@@ -4,11 +4,12 @@ use super::algebra::{Poly, Ratio};
 use super::assumption::{AssumptionUse, SignedRatio};
 use super::choice;
 use super::context::Context;
+use super::dictionary::poly;
 use super::error::Quantity;
 use super::rules::Certificate;
 use crate::formula::Hypothesis;
 use crate::number::tree::Op;
-use crate::proof::check::{Atom, Problem, Refusal, Sign, State};
+use crate::proof::check::{Atom, Polynomial, Problem, Refusal, Sign, State};
 use std::collections::BTreeMap;
 
 /// A fact of the checker for an assumption, whose quantity is `scale` times the fact divided by other facts.
@@ -52,17 +53,17 @@ impl<'a> Knowledge<'a> {
         self.record(Some(fact));
     }
 
-    /// Uses the fact that two variables are equal.
-    pub fn equate(&mut self, [x, y]: [usize; 2], fact: usize) {
-        let difference = Poly::variable(x) - Poly::variable(y);
-        self.context.assume_sign(None, difference.into(), Sign::Zero);
+    /// Uses the fact with this number, that a polynomial is 0.
+    pub fn equate(&mut self, fact: usize, of: &Polynomial) {
+        self.context.assume_sign(None, poly(of).into(), Sign::Zero);
         self.record(Some(AssumedFact { fact, den: Vec::new(), scale: Poly::constant(1).into() }));
     }
 
-    /// Retains a quantity of known sign, which is a fact.
-    pub fn retain(&mut self, value: Ratio, sign: Sign, fact: usize) {
+    /// Retains a multiple of a fact of known sign, for a positive factor.
+    pub fn retain(&mut self, fact: usize, of: &Polynomial, sign: Sign, factor: Poly) {
+        let value = self.context.reduce(&(poly(of) * &factor).into());
         self.context.retain(None, value, sign);
-        self.record(Some(AssumedFact { fact, den: Vec::new(), scale: Poly::constant(1).into() }));
+        self.record(Some(AssumedFact { fact, den: Vec::new(), scale: factor.into() }));
     }
 
     /// Adds the assumption of a case.

@@ -1,25 +1,24 @@
 //! The search for the steps of a leaf: whatever the translation of a formula requires is found, and listed.
 
-use super::Failure;
-use super::ProofError;
 use super::algebra::{Poly, Ratio};
-use super::dictionary::opaque;
+use super::dictionary::{poly, polynomial};
 use super::finder::{Finder, Result};
 use super::knowledge::{AssumedFact, Knowledge};
 use super::{Decision, case};
+use super::{Failure, ProofError};
 use crate::formula::Relation;
 use crate::formula::claim::PRECISION;
 use crate::formula::statement::Proposition;
 use crate::number::Tree;
 use crate::number::tree::Op;
 use crate::proof::check::{Atom, Law, Polynomial, Problem, Quotient, Refusal, Sign, State, Step};
+use std::collections::VecDeque;
+use std::iter;
 
 /// The steps so far, and the knowledge of the checker after them.
 pub struct Steps<'a> {
     pub state: State<'a>,
     pub steps: Vec<Step>,
-    /// The number of the last fact after each step.
-    last_facts: Vec<usize>,
 }
 
 /// A search for the steps of a leaf.
@@ -36,8 +35,12 @@ pub struct Search<'a> {
     pub required: Option<Quotient>,
     /// Whether the goal rests on an order of rounded formulas.
     is_ordered: bool,
-    /// The number of laws of exponentials, two for each, that were tried.
-    laws: usize,
+    /// The exponentials that were met, as variables.
+    pub exponentials: Vec<usize>,
+    /// Their laws that may still be listed.
+    laws: VecDeque<Law>,
+    /// The absolute values that were met, as variables.
+    met: Vec<usize>,
 }
 
 /// The use of the sign of a quantity.
@@ -56,16 +59,7 @@ impl Steps<'_> {
     pub fn add(&mut self, step: Step) -> Result<usize> {
         self.state.apply(&step)?;
         self.steps.push(step);
-        self.last_facts.push(self.state.facts.iter().len() - 1);
         Ok(self.state.facts.iter().len() - 1)
-    }
-
-    /// Adds a step, unless it is listed, and returns the number of its fact.
-    pub fn add_once(&mut self, step: Step) -> Result<usize> {
-        match self.steps.iter().position(|known| *known == step) {
-            Some(i) => Ok(self.last_facts[i]),
-            None => self.add(step),
-        }
     }
 }
 
@@ -73,9 +67,11 @@ impl<'a> Search<'a> {
     /// Returns a search under the assumptions of decisions.
     pub fn new(problem: &'a Problem<'a>, decisions: &[Decision]) -> Result<Self> {
         let cases: Vec<_> = decisions.iter().filter_map(case).collect();
-        let proof = Steps { state: State::new(problem, &cases)?, steps: Vec::new(), last_facts: Vec::new() };
-        let (sizes, position, required, is_ordered, laws) = Default::default();
-        Ok(Search { known: Knowledge::new(problem), proof, sizes, position, required, is_ordered, laws })
+        let proof = Steps { state: State::new(problem, &cases)?, steps: Vec::new() };
+        let (sizes, position, required, is_ordered) = Default::default();
+        let (exponentials, laws, met) = Default::default();
+        let known = Knowledge::new(problem);
+        Ok(Search { known, proof, sizes, position, required, is_ordered, exponentials, laws, met })
     }
 
     pub fn problem(&self) -> &'a Problem<'a> {
@@ -138,7 +134,7 @@ impl<'a> Search<'a> {
         };
         self.show_sum(&[(1, x), (-1, y)], Use::Goal)?;
         [a, b].into_iter().try_for_each(|of| self.value(of).map(|_| ()))?;
-        self.proof.add(Step::Law(Law::Order { rounded: [a, b] }))?;
+        self.proof.add(Step::Law(Law::Order([a, b])))?;
         Ok(())
     }
 
@@ -169,7 +165,7 @@ impl<'a> Search<'a> {
             match op {
                 Op::Div(_, by) => self.divisor(by)?,
                 Op::PositivePart(of) => self.show_sum(&[(1, of)], Use::Branch)?,
-                Op::Min(a, b) if self.problem().table.op(a) == Ok(Op::Neg(b)) => self.absolute_value(a, b)?,
+                Op::Min(a, b) if self.problem().table.op(a) == Ok(Op::Neg(b)) => self.absolute_value(b)?,
                 Op::Min(a, b) => self.show_sum(&[(1, b), (-1, a)], Use::Branch)?,
                 Op::Exp(of) => self.exponential(of)?,
                 Op::Rounded(_) => self.precision()?,
@@ -211,7 +207,7 @@ impl<'a> Search<'a> {
         }
         self.required = Some(of.clone());
         // The numerator is shorter than the quotient, but its sign may be found by the other's alone.
-        let direct = self.known.reduced(&of.num, &self.proof.state);
+        let direct = self.known.reduced(&of.num);
         let signed = self.known.context.sign(direct.clone(), &self.known.factors);
         let signed = signed.filter(|signed| match fact {
             Some(_) => is_definite(signed.sign()),
@@ -229,6 +225,9 @@ impl<'a> Search<'a> {
         let requires_zero =
             matches!(self.problem().proposition, Proposition::Equal(..) | Proposition::Derivative(..));
         if requires_zero && usage == Use::Goal && !value.is_zero() {
+            if self.list_law()? {
+                return self.show(of, usage);
+            }
             return Err(ProofError::Unequal(self.known.quantity(value)).into());
         }
         if signed.is_none() && self.list_law()? {
@@ -250,26 +249,35 @@ impl<'a> Search<'a> {
         is_definite(sign) || is_weak
     }
 
-    /// Lists the next law of an exponential. Returns `false` if all are listed already.
+    /// Lists the next law of exponentials that applies. Returns `false` if all are listed already.
     fn list_law(&mut self) -> Result<bool> {
-        let Some((exponent, x)) = self.proof.state.exponents.get(self.laws / 2).cloned() else {
-            return Ok(false);
-        };
-        let is_tangent = self.laws.is_multiple_of(2);
-        self.laws += 1;
-        let signed = self.known.sign(self.known.reduced_quotient(&exponent, &self.proof.state));
-        let sign = signed.map(|signed| signed.sign());
-        if !is_tangent && !sign.is_some_and(|sign| sign.implies(Sign::NonNegative)) {
-            return self.list_law();
+        while let Some(law) = self.laws.pop_front() {
+            let (x, is_bound) = match law {
+                Law::AboveTangent(x) | Law::BelowPole(x) => (x, true),
+                _ => (0, false),
+            };
+            if is_bound {
+                let exponent = self.proof.state.exponent(x)?;
+                let value = self.known.reduced_quotient(&exponent, &self.proof.state);
+                if self.known.sign(value).is_some() {
+                    self.show(&exponent, Use::Part)?;
+                }
+            }
+            let Ok(fact) = self.proof.add(Step::Law(law)) else { continue };
+            let (of, sign) = self.proof.state.facts.get(fact)?;
+            match is_bound {
+                false => self.known.equate(fact, of),
+                true => {
+                    // Its product with the reciprocal bounds that one.
+                    let i = self.exponentials.iter().position(|y| *y == x).unwrap_or_default();
+                    let reciprocal = Poly::variable(self.exponentials[i ^ 1]);
+                    self.known.retain(fact, of, *sign, Poly::constant(1));
+                    self.known.retain(fact, of, *sign, reciprocal);
+                }
+            }
+            return Ok(true);
         }
-        if sign.is_some() {
-            self.show(&exponent, Use::Part)?;
-        }
-        let law = if is_tangent { Law::AboveTangent(x) } else { Law::BelowPole(x) };
-        let fact = self.proof.add(Step::Law(law))?;
-        let (of, sign) = self.proof.state.facts.get(fact)?;
-        self.known.retain(self.known.poly(of, &self.proof.state).into(), *sign, fact);
-        Ok(true)
+        Ok(false)
     }
 
     /// Shows that the factors of a divisor are not 0: symbols, known facts, errors 2ᵖ + 1 + e, and the rest.
@@ -280,11 +288,11 @@ impl<'a> Search<'a> {
         }
         self.check_divisor(formula, &of)?;
         let state = &self.proof.state;
-        let mut rest = opaque(&of.num);
+        let mut rest = poly(&of.num);
         let mut candidates: Vec<Poly> =
             rest.common_monomial().powers().map(|(x, _)| Poly::variable(x)).collect();
         let strict = state.facts.iter().filter(|(of, sign)| sign.is_strict() && of.terms().len() > 1);
-        candidates.extend(strict.map(|(of, _)| opaque(of)));
+        candidates.extend(strict.map(|(of, _)| poly(of)));
         candidates.extend(self.known.largest_errors(&rest));
         let mut factors = Vec::new();
         for factor in candidates {
@@ -298,7 +306,7 @@ impl<'a> Search<'a> {
         }
         let mut numbers = Vec::with_capacity(factors.len());
         for factor in &factors {
-            let factor = self.known.polynomial(factor, &self.proof.state).ok_or("a divisor")?;
+            let factor = polynomial(factor).ok_or("a divisor")?;
             numbers.push(self.strict(&factor)?);
         }
         if numbers.len() != 1 {
@@ -312,9 +320,9 @@ impl<'a> Search<'a> {
         if value.num.has_only(|_| false) && !value.num.is_zero() {
             return Ok(());
         }
-        let reduced = self.known.reduced_quotient(value, &self.proof.state);
         self.known.collect_factors(formula, &mut self.proof.state)?;
         loop {
+            let reduced = self.known.reduced_quotient(value, &self.proof.state);
             let signed = self.known.sign(reduced.clone());
             if signed.is_some_and(|signed| signed.sign().is_strict()) {
                 return Ok(());
@@ -333,43 +341,69 @@ impl<'a> Search<'a> {
             let divisor = Tree::symbol(PRECISION) + Tree::from(1);
             return Err(ProofError::PossibleZeroDivisor(divisor, self.known.quantity(largest)).into());
         }
-        let largest = self.known.polynomial(&self.known.context.largest, &self.proof.state);
+        let largest = polynomial(&self.known.context.largest);
         self.strict(&largest.ok_or("a precision")?)?;
         Ok(())
     }
 
-    /// Makes an exponential an atom, unless one with the same exponent is one.
+    /// Adds the laws of an exponential and its reciprocal to those that may be listed.
     fn exponential(&mut self, exponent: usize) -> Result<()> {
-        let x = self.problem().table.variable(Atom::Exponential(exponent))?;
-        if self.proof.state.exponent(x).is_none() {
-            self.proof.add(Step::Exponential(exponent))?;
+        let table = &self.problem().table;
+        let reciprocal = table.number(&Op::Neg(exponent))?;
+        let pair = [exponent, reciprocal].map(|of| table.variable(Atom::Exponential(of)));
+        let [x, y] = [pair[0]?, pair[1]?];
+        if self.exponentials.contains(&x) {
+            return Ok(());
+        }
+        self.exponentials.extend([x, y]);
+        let all = &self.exponentials;
+        for x in [x, y] {
+            let pairs = all.iter().take_while(|z| **z != x).map(|z| vec![*z, x]);
+            for left in iter::once(vec![x]).chain(pairs) {
+                let others = all.iter().filter(|z| !left.contains(z)).map(|z| vec![*z]);
+                let laws = iter::once(Vec::new()).chain(others);
+                self.laws.extend(laws.map(|right| Law::Exponents { left: left.clone(), right }));
+            }
+        }
+        for x in [x, y] {
+            self.laws.extend([Law::AboveTangent(x), Law::BelowPole(x)]);
         }
         Ok(())
     }
 
-    /// Makes the absolute value of a formula an atom, or shows its sign.
-    fn absolute_value(&mut self, negated: usize, of: usize) -> Result<()> {
-        if self.proof.state.sizes.contains(&of) {
+    /// Shows what the absolute value of a formula is: another one, an atom, or the formula with a sign.
+    fn absolute_value(&mut self, of: usize) -> Result<()> {
+        let size = self.problem().table.variable(Atom::Size(of))?;
+        if self.met.contains(&size) {
             return Ok(());
         }
         let quotient = self.proof.state.value(of)?;
         let value = self.known.ratio(&quotient, &self.proof.state);
         let twice: Ratio = self.known.context.reduce(&(&value + &value));
-        if self.known.context.size(&value).is_none() {
-            let decision = Decision::Size { at: self.position, of, twice: twice.clone() };
-            if self.known.sign(twice.clone()).is_some() || !self.known.assume_size(of, &twice) {
-                return self.show_sum(&[(1, of), (-1, negated)], Use::Branch);
+        let law = match self.known.context.size(&value) {
+            Some(known) if known == size => Law::AbsoluteValue(of),
+            Some(known) => match self.problem().table.atoms().get(known) {
+                Some(Atom::Size(other)) => Law::SameSize([of, *other]),
+                _ => return Err("an absolute value".into()),
+            },
+            None => {
+                let decision = Decision::Size { at: self.position, of, twice: twice.clone() };
+                if self.known.sign(twice.clone()).is_some() || !self.known.assume_size(of, &twice) {
+                    self.show(&quotient, Use::Branch)?;
+                    Law::Signed(of)
+                } else {
+                    self.sizes.push(decision);
+                    Law::AbsoluteValue(of)
+                }
             }
-            self.sizes.push(decision);
-        }
-        let size = self.problem().table.variable(Atom::Size(of))?;
-        let known = self.known.context.size(&value).ok_or("an absolute value")?;
-        let fact = self.proof.add(Step::AbsoluteValue(of))?;
-        if known == size {
+        };
+        let is_atom = matches!(law, Law::AbsoluteValue(_));
+        let fact = self.proof.add(Step::Law(law))?;
+        self.met.push(size);
+        if is_atom {
             self.known.sizes.insert(size, fact);
-        } else if let Some(Atom::Size(other)) = self.problem().table.atoms().get(known) {
-            let fact = self.proof.add(Step::Law(Law::AbsoluteValues { of: [of, *other] }))?;
-            self.known.equate([size, known], fact);
+        } else {
+            self.known.equate(fact, &self.proof.state.facts.get(fact)?.0);
         }
         Ok(())
     }

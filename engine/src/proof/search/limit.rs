@@ -17,8 +17,9 @@ impl Search<'_> {
     pub fn limit(&mut self, of: usize, by: &'static str, to: usize) -> Result<()> {
         let (of, to) = (self.value(of)?, self.value(to)?);
         let x = self.problem().table.variable(Atom::Own(by))?;
-        for (exponent, y) in self.proof.state.exponents.clone() {
+        for y in self.exponentials.clone() {
             if of.num.degree(y) > 0 && self.problem().depends_on(y, x) {
+                let exponent = self.proof.state.exponent(y)?;
                 self.show_leading(&exponent)?;
             }
         }

@@ -4,7 +4,7 @@
 //! follow from it.
 //!
 //! 1. **Terms.** All terms have the same sign, which follows from the known signs of symbols; even powers of
-//!    free symbols are not negative, and e^… is positive. The sign is strict if that of one term is.
+//!    free symbols are not negative. The sign is strict if that of one term is.
 //! 2. **Factor.** The sign of a product follows from those of its factors.
 //! 3. **Square.** If 4 a f = r² + d with a ≠ 0 and d is not negative, f has the sign of a.
 //! 4. **Sizes.** Factors between −1 and 1 do not increase the absolute value of a term, and their squares do
@@ -135,9 +135,6 @@ impl Certificate {
     /// Applies rule 3 to f = a x² + b x + d: 4 a f = (2 a x + b)² + (4 a d − b²).
     pub fn square(of: &Poly, x: usize, known: &SignEnv, find: SignSearch) -> Option<Self> {
         let [d, b, a] = of.coefficients(x)?;
-        if of.has_in_exponent(x) {
-            return None;
-        }
         let leading = find(&a, known).filter(|a| a.sign.is_strict())?;
         known.spend(&a, &d).and(known.spend(&b, &b))?;
         let rest = find(&(Poly::constant(4) * &a * d - &b * &b), known)?;
@@ -163,7 +160,7 @@ impl Certificate {
 
     /// Applies rule 5.
     pub fn endpoints(of: &Poly, x: usize, known: &SignEnv, find: SignSearch) -> Option<Self> {
-        if !known.is_unit(x) || of.has_in_exponent(x) {
+        if !known.is_unit(x) {
             return None;
         }
         let at: Vec<_> = bernstein(of, x).iter().map(|of| find(of, known)).collect::<Option<_>>()?;
@@ -188,7 +185,7 @@ impl TermSize {
     fn new(m: &Monomial, q: &Number, known: &SignEnv) -> Option<Self> {
         let rest = m.only(|x| !known.is_unit(x));
         let sign = sign_of_monomial(&rest, known)?;
-        let size = if sign.implies(NonPositive) { -q.abs() } else { q.abs() };
+        let size = if sign.implies(NonPositive) { -Number::from(q.abs_ref()) } else { q.abs_ref().into() };
         let is_even = m.powers().all(|(x, n)| !known.is_unit(x) || n % 2 == 0);
         Some(TermSize { size: (rest, size), sign: is_even.then(|| sign_of_number(q).times(sign)) })
     }
@@ -203,7 +200,7 @@ fn bound(others: &Poly, sizes: &[TermSize], difference: Sign) -> Poly {
 
 /// Returns the sign of a coefficient, which is not 0.
 fn sign_of_number(q: &Number) -> Sign {
-    if q.sign().is_lt() { Negative } else { Positive }
+    if q.cmp0().is_lt() { Negative } else { Positive }
 }
 
 fn sign_of_monomial(monomial: &Monomial, known: &SignEnv) -> Option<Sign> {

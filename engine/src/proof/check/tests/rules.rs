@@ -75,7 +75,7 @@ fn orders() -> Vec<Forged> {
     let negative = negative.assuming(&[not_below_zero(&a - &b), above_zero(-&c)]);
     let by = |claim: &Statement, of: [&Tree; 2], given: usize, more: Vec<Step>| {
         let page = Page::of(claim);
-        let law = Step::Law(Law::Order { rounded: of.map(|of| page.formula(of)) });
+        let law = Step::Law(Law::Order(of.map(|of| page.formula(of))));
         [assume(given), vec![largest(&page)], more, vec![law]].concat()
     };
     let [f, g] = [a.round(), b.round()];
@@ -100,53 +100,26 @@ fn orders() -> Vec<Forged> {
 
 fn exponentials() -> Vec<Forged> {
     let [a, b, u] = ["a", "b", "u"].map(x);
-    let named = |claim: &Statement, exponents: &[Tree]| -> Vec<Step> {
-        let page = Page::of(claim);
-        exponents.iter().map(|of| Step::Exponential(page.formula(of))).collect()
-    };
-    let product = equal("f", a.exp() * b.exp(), (&a + &b).exp());
-    let of = |claim: &Statement, exponents: &[Tree], left: &[&'static str], right: &[&'static str]| {
+    let of = |claim: &Statement, left: &[&'static str], right: &[&'static str]| {
         let page = Page::of(claim);
         let [left, right] = [left, right].map(|names| names.iter().map(|name| page.variable(name)).collect());
-        [named(claim, exponents), vec![Step::Law(Law::Exponents { left, right })]].concat()
+        vec![Step::Law(Law::Exponents { left, right })]
     };
-    let all = [a.clone(), b.clone(), &a + &b];
-    accept(&product, &[leaf(0, of(&product, &all, &["E₁", "E₂"], &["E₃"]))]);
+    let product = equal("f", a.exp() * b.exp(), (&a + &b).exp());
+    accept(&product, &[leaf(0, of(&product, &["E₁", "E₂"], &["E₃"]))]);
     let reciprocal = equal("f", a.exp() * (-&a).exp(), 1);
-    let both = [a.clone(), -&a];
-    accept(&reciprocal, &[leaf(0, of(&reciprocal, &both, &["E₁", "E₂"], &[]))]);
-    let sum = &a + n(2) * &b;
-    let other = equal("f", a.exp() * b.exp(), sum.exp());
+    accept(&reciprocal, &[leaf(0, of(&reciprocal, &["E₁", "E₂"], &[]))]);
+    let other = equal("f", a.exp() * b.exp(), (&a + n(2) * &b).exp());
+    let undefined = equal("f", (n(1) / &a).exp(), 1);
     let above_one = positive("f", u.exp() - n(1));
-    let of_one = [named(&above_one, &[u]), vec![Page::of(&above_one).form(x("E₁") - n(1))]].concat();
+    let of_one = vec![Page::of(&above_one).form(x("E₁") - n(1))];
     let law = Refusal::Law;
     vec![
-        forged(
-            "exponents of another sum",
-            &other,
-            of(&other, &[a.clone(), b.clone(), sum], &["E₁", "E₂"], &["E₃"]),
-            law,
-        ),
-        forged("exponents that are no 0", &reciprocal, of(&reciprocal, &both, &["E₁"], &[]), law),
-        forged(
-            "the exponent of a symbol",
-            &product,
-            of(&product, &all, &["a", "E₂"], &["E₃"]),
-            Refusal::Unknown,
-        ),
-        forged(
-            "an exponent without a name",
-            &product,
-            of(&product, &all[1..], &["E₁"], &["E₂"]),
-            Refusal::Unknown,
-        ),
-        forged("an exponential without a name", &product, named(&product, &all[..2]), Refusal::Name),
-        forged(
-            "the exponential of another formula",
-            &above_one,
-            vec![Step::Exponential(1)],
-            Refusal::Unknown,
-        ),
+        forged("exponents of another sum", &other, of(&other, &["E₁", "E₂"], &["E₃"]), law),
+        forged("exponents that are no 0", &reciprocal, of(&reciprocal, &["E₁"], &[]), law),
+        forged("the exponent of a symbol", &product, of(&product, &["a", "E₂"], &["E₃"]), Refusal::Unknown),
+        forged("an undefined exponent", &undefined, of(&undefined, &["E₁"], &[]), Refusal::Divisor),
+        forged("an undefined exponential", &undefined, vec![], Refusal::Divisor),
         forged("an exponential above 1", &above_one, of_one, Refusal::Form),
     ]
 }
@@ -158,7 +131,7 @@ fn laws_of_exponentials() -> Vec<Forged> {
     let pole = || n(2) + &u - (n(2) - &u) * u.exp();
     let of = |claim: &Statement, law: fn(usize) -> Law| {
         let page = Page::of(claim);
-        let steps = vec![Step::Exponential(page.formula(&u)), Step::Law(law(page.variable("E₁")))];
+        let steps = vec![Step::Law(law(page.variable("E₁")))];
         [assume(claim.hypotheses().len()), steps].concat()
     };
     let given = |claim: Statement, hypothesis: Hypothesis| claim.assuming(&[hypothesis]);
@@ -195,39 +168,42 @@ fn laws_of_exponentials() -> Vec<Forged> {
 fn absolute_values() -> Vec<Forged> {
     let [u, v] = ["u", "v"].map(x);
     let product = || x("S₁") * x("F₁");
-    let of = |claim: &Statement, named: &[&Tree], more: Vec<Step>| {
-        let page = Page::of(claim);
-        let names = named.iter().map(|of| Step::AbsoluteValue(page.formula(of)));
-        names.chain(more).collect::<Vec<_>>()
+    let of = |claim: &Statement, law: fn(usize) -> Law, of: &Tree, more: Vec<Step>| {
+        let named = Step::Law(law(Page::of(claim).formula(of)));
+        [assume(claim.hypotheses().len()), vec![named], more].concat()
     };
     let same = |claim: &Statement, all: [&Tree; 2]| {
         let page = Page::of(claim);
-        vec![Step::Law(Law::AbsoluteValues { of: all.map(|of| page.formula(of)) })]
+        vec![Step::Law(Law::SameSize(all.map(|of| page.formula(of))))]
     };
     let at_most = non_negative("f", u.abs() - &u);
     let page = Page::of(&at_most);
-    let margin = || page.show(x("S₁") - &u, &[1], 1, x("S₁") - product() - x("z₁"));
-    accept(&at_most, &[leaf(0, of(&at_most, &[&u], vec![margin()]))]);
+    let margin = |page: &Page| page.show(x("S₁") - &u, &[1], 1, x("S₁") - product() - x("z₁"));
+    accept(&at_most, &[leaf(0, of(&at_most, Law::AbsoluteValue, &u, vec![margin(&page)]))]);
     let opposite = equal("f", u.abs(), (-&u).abs());
-    let both = [&u, &-&u];
-    accept(&opposite, &[leaf(0, of(&opposite, &both, same(&opposite, both)))]);
+    accept(&opposite, &[leaf(0, same(&opposite, [&u, &-&u]))]);
     let others = equal("f", u.abs(), v.abs());
     let (strict, is_own) = (positive("f", u.abs()), equal("f", u.abs(), &u));
+    let own = is_own.clone().assuming(&[not_below_zero(&u)]);
+    accept(&own, &[leaf(0, of(&own, Law::Signed, &u, vec![]))]);
+    let negated = equal("f", u.abs(), -&u).assuming(&[not_below_zero(-&u)]);
+    let sign = Page::of(&negated).show(&u, &[1], 1, -x("z₁"));
+    let law = Step::Law(Law::Signed(Page::of(&negated).formula(&u)));
+    accept(&negated, &[leaf(1, vec![sign, law])]);
     let signed = non_negative("f", u.abs() * &u);
     let by_factor = Page::of(&signed).show(x("S₁") * &u, &[1], 1, x("S₁") * product() + x("S₁") * x("z₁"));
-    let row = |flaw, claim: &Statement, named: &[&Tree], more, refusal| {
-        forged(flaw, claim, of(claim, named, more), refusal)
-    };
-    let margin_of_own = Page::of(&is_own).show(x("S₁") - &u, &[1], 1, x("S₁") - product() - x("z₁"));
+    let row =
+        |flaw, claim: &Statement, law, more, refusal| forged(flaw, claim, of(claim, law, &u, more), refusal);
+    let of_own = margin(&Page::of(&is_own));
     vec![
-        row("an absolute value left out", &at_most, &[], vec![], Refusal::Sign),
-        row("a side without a sign", &at_most, &[], vec![page.form(n(2) * &u)], Refusal::Form),
-        row("the absolute value of another", &others, &[&u, &v], same(&others, [&u, &v]), Refusal::Law),
-        row("two absolute values", &others, &[&u, &v], vec![], Refusal::Goal),
-        row("an absolute value of 0", &strict, &[&u], vec![Page::of(&strict).form(x("S₁"))], Refusal::Goal),
-        row("an absolute value without its factor", &is_own, &[&u], vec![margin_of_own], Refusal::Goal),
-        row("the sign of a factor", &signed, &[&u], vec![by_factor], Refusal::Form),
-        forged("the absolute value of nothing", &at_most, vec![Step::AbsoluteValue(99)], Refusal::Unknown),
+        forged("an absolute value left out", &at_most, vec![margin(&page)], Refusal::Unknown),
+        row("a side without a sign", &is_own, Law::Signed, vec![], Refusal::Law),
+        forged("the absolute value of another", &others, same(&others, [&u, &v]), Refusal::Law),
+        forged("two absolute values", &others, vec![], Refusal::Goal),
+        forged("an absolute value of 0", &strict, vec![Page::of(&strict).form(x("S₁"))], Refusal::Goal),
+        row("an absolute value without its factor", &is_own, Law::AbsoluteValue, vec![of_own], Refusal::Goal),
+        row("the sign of a factor", &signed, Law::AbsoluteValue, vec![by_factor], Refusal::Form),
+        forged("the size of nothing", &at_most, vec![Step::Law(Law::AbsoluteValue(99))], Refusal::Unknown),
     ]
 }
 

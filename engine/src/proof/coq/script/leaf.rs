@@ -57,8 +57,12 @@ impl<'w> Writer<'w> {
         is_known: impl Fn(usize) -> bool,
     ) -> Result<Self> {
         let state = State::new(target.problem, cases)?;
-        let is_known = (0..target.problem.table.atoms().len()).map(is_known).collect();
-        let items = (1..=cases.len()).map(|i| format!("C{i}")).collect();
+        let is_known: Vec<_> = (0..target.problem.table.atoms().len()).map(is_known).collect();
+        let atoms = target.problem.table.atoms().iter().enumerate();
+        let named =
+            atoms.filter(|(x, atom)| is_known[*x] && matches!(atom, Atom::Exponential(_) | Atom::Size(_)));
+        let items =
+            named.map(|(x, _)| format!("F{x}")).chain((1..=cases.len()).map(|i| format!("C{i}"))).collect();
         Ok(Writer { target, state, is_known, items, rounded: Vec::new() })
     }
 
@@ -104,13 +108,6 @@ impl<'w> Writer<'w> {
                 // Formulas are translated again.
                 self.rounded.clear();
             }
-            Step::Exponential(of) => {
-                let reciprocal = self.target.problem.table.number(&Op::Neg(*of))?;
-                for x in [*of, reciprocal].map(|of| self.target.variable(Atom::Exponential(of))) {
-                    let x = x?;
-                    self.items.extend(self.is_known[x].then(|| format!("F{x}")));
-                }
-            }
             Step::Divisor(factors) => self.divide(factors),
             _ if !is_in_scope => self.items.push(NO_FACT.into()),
             Step::Assume(i) => {
@@ -124,12 +121,10 @@ impl<'w> Writer<'w> {
                 self.items.push(format!("Shown {} {identity}", text(of)));
             }
             Step::Square(of) => self.items.push(format!("Squared {}", text(of))),
-            Step::AbsoluteValue(of) => {
-                let [size, factor] =
-                    [Atom::Size(*of), Atom::Factor(*of)].map(|atom| self.target.variable(atom));
-                self.items.extend([format!("F{}", size?), format!("F{}", factor?)]);
+            Step::Law(law) => {
+                let item = self.law(law)?;
+                self.items.push(item);
             }
-            Step::Law(law) => self.items.push(self.law(law)?),
         }
         if self.is_smooth() && is_in_scope && added.is_some_and(|(_, sign)| sign.is_strict()) {
             self.divide(&[fact]);
@@ -173,36 +168,40 @@ impl<'w> Writer<'w> {
     }
 
     /// Returns the proof of an instance of a law.
-    fn law(&self, law: &Law) -> Result<String> {
-        let facts = &self.state.facts;
-        let exponent = |x: &usize| self.state.exponent(*x).ok_or("an exponential without exponent");
+    fn law(&mut self, law: &Law) -> Result<String> {
+        let target = self.target;
+        let size = |of: usize| target.variable(Atom::Size(of));
         Ok(match law {
             Law::Exponents { left, right } => {
                 let [left, right] = [left, right].map(|all| product_of_exponentials(all));
                 format!("same_exponents _ _ _ _ {left} {right}")
             }
             Law::AboveTangent(x) => {
-                let side = match exponent(x)? {
-                    of if facts.have(of, Sign::Positive) => "_right",
-                    of if facts.have(of, Sign::Negative) => "_left",
-                    _ => "",
-                };
-                format!("above_tangent{side} _ _ F{x}")
+                let exponent = self.state.exponent(*x)?;
+                let signs = [(Sign::Positive, "_right"), (Sign::Negative, "_left")];
+                let side = signs.into_iter().find(|(sign, _)| self.state.facts.have(&exponent, *sign));
+                format!("above_tangent{} _ _ F{x}", side.map_or("", |(_, side)| side))
             }
             Law::BelowPole(x) => {
-                let at_0 = if facts.have(exponent(x)?, Sign::Positive) { "" } else { "_or_at_0" };
-                format!("below_pole{at_0} _ _ F{x}")
+                let exponent = self.state.exponent(*x)?;
+                let is_strict = self.state.facts.have(&exponent, Sign::Positive);
+                format!("below_pole{} _ _ F{x}", if is_strict { "" } else { "_or_at_0" })
             }
-            Law::AbsoluteValues { of } => {
-                let [x, y] = of.map(|of| self.target.variable(Atom::Size(of)));
-                let mut state = self.state.clone();
-                let difference = facts.sum(&state.value(of[0])?, -1, &state.value(of[1])?)?;
-                let lemma = if facts.have(&difference, Sign::Zero) { "same_size" } else { "opposite_size" };
-                format!("{lemma} _ _ _ _ F{} F{}", x?, y?)
+            Law::AbsoluteValue(of) => format!("F{}", target.variable(Atom::Factor(*of))?),
+            Law::Signed(of) => {
+                let value = self.state.value(*of)?;
+                let is_positive = self.state.facts.have(&value, Sign::NonNegative);
+                format!("{}_size _ _ F{}", if is_positive { "own" } else { "negated" }, size(*of)?)
             }
-            Law::Order { rounded } => {
-                let [a, b] = rounded.map(|rounded| match self.target.problem.table.op(rounded)? {
-                    Op::Rounded(of) => self.target.formula(of),
+            Law::SameSize([a, b]) => {
+                let (x, y) = (self.state.value(*a)?, self.state.value(*b)?);
+                let is_same = self.state.facts.have(&self.state.facts.sum(&x, -1, &y)?, Sign::Zero);
+                let lemma = if is_same { "same_size" } else { "opposite_size" };
+                format!("{lemma} _ _ _ _ F{} F{}", size(*a)?, size(*b)?)
+            }
+            Law::Order(rounded) => {
+                let [a, b] = rounded.map(|rounded| match target.problem.table.op(rounded)? {
+                    Op::Rounded(of) => target.formula(of),
                     _ => Err("an order of other formulas than rounded ones".into()),
                 });
                 format!("ordered prec choice {} {} P", a?, b?)

@@ -111,7 +111,7 @@ impl Limit<'_> {
             }
             [(y, part)] => {
                 let unlike = "an exponential is not that of a constant rate, or has a factor that grows";
-                let exponent = self.state.exponent(*y).ok_or("an exponential without exponent")?;
+                let exponent = self.state.clone().exponent(*y)?;
                 let (above, below) = (&exponent.num, self.product(&exponent.den)?);
                 let rate = above.coefficient(self.x, 1);
                 let is_linear = above.degree(self.x) == 1 && above.coefficient(self.x, 0).is_zero();
