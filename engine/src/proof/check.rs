@@ -52,7 +52,7 @@ mod tests;
 
 pub use polynomial::{MAX_VARIABLES, Polynomial, Powers};
 pub use premises::{MAX_DEPTH, MAX_SIZE, Premise};
-pub(in crate::proof) use premises::{MAX_ROUNDINGS, check_premises, check_size, roundings};
+pub(in crate::proof) use premises::{check_premises, check_size};
 pub(in crate::proof) use quotient::Quotient;
 pub use sign::Sign;
 pub(in crate::proof) use state::State;

@@ -91,8 +91,9 @@ impl<'a> ProofPrinter<'a> {
         let symbols: Vec<_> = statement.trees().flat_map(Tree::symbols).collect();
         let names = self.called(statement).into_iter().map(|called| called.formula.symbol);
         let taken: BTreeSet<_> = symbols.into_iter().chain(names).collect();
-        let mut free = LETTERS.iter().filter(|(letter, _)| !taken.contains(letter.to_string().as_str()));
-        *free.next().unwrap_or(&LETTERS[0])
+        let [letters, superscripts] = LETTERS.map(str::chars);
+        let mut free = letters.zip(superscripts).filter(|(letter, _)| !taken.contains(&*letter.to_string()));
+        free.next().unwrap_or(('k', 'ᵏ'))
     }
 
     /// Returns the definition of the power of a ratio: `q = ρᵏ`.
@@ -280,21 +281,8 @@ struct Called<'a> {
     arguments: usize,
 }
 
-/// Letters for the index of a sequence in order of preference, with their superscripts.
-const LETTERS: [(char, char); 12] = [
-    ('k', 'ᵏ'),
-    ('j', 'ʲ'),
-    ('i', 'ⁱ'),
-    ('n', 'ⁿ'),
-    ('m', 'ᵐ'),
-    ('r', 'ʳ'),
-    ('s', 'ˢ'),
-    ('t', 'ᵗ'),
-    ('w', 'ʷ'),
-    ('x', 'ˣ'),
-    ('y', 'ʸ'),
-    ('z', 'ᶻ'),
-];
+/// Letters for the index of a sequence in order of preference, and their superscripts.
+const LETTERS: [&str; 2] = ["kjinmrstwxyz", "ᵏʲⁱⁿᵐʳˢᵗʷˣʸᶻ"];
 
 #[cfg(test)]
 mod tests;

@@ -127,11 +127,7 @@ pub(in crate::proof) fn prove_proposition(
 ) -> Result<Node, ProofError> {
     let trees: Vec<&Tree> = hypotheses.iter().map(|h| &h.value).chain(proposition.trees()).collect();
     check::check_size(trees.iter().copied())?;
-    let roundings = check::roundings(trees.into_iter());
-    if roundings.len() > check::MAX_ROUNDINGS {
-        return Err(Premise::TooManyRoundings.into());
-    }
-    if !roundings.is_empty() && proposition.variable().is_some() {
+    if proposition.variable().is_some() && trees.into_iter().any(Tree::contains_rounding) {
         return Err(Premise::Discontinuous.into());
     }
     solve(proposition, hypotheses)

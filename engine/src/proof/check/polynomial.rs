@@ -81,26 +81,12 @@ impl Polynomial {
 
     /// Returns `self` + `n` `other`.
     pub fn plus_multiple(&self, n: i128, other: &Self, effort: &Effort) -> Checked<Self> {
-        let count = self.0.len() + other.0.len();
-        effort.spend(count).ok_or(Refusal::TooLarge)?;
-        let (mut sums, mut rest) = (Vec::with_capacity(count), &self.0[..]);
+        effort.spend(self.0.len() + other.0.len()).ok_or(Refusal::TooLarge)?;
+        let mut terms = self.0.clone();
         for (powers, number) in &other.0 {
-            let before = rest.iter().take_while(|(first, _)| first < powers).count();
-            sums.extend_from_slice(&rest[..before]);
-            rest = &rest[before..];
-            let mut sum = number.checked_mul(n).ok_or(Refusal::TooLarge)?;
-            if let [(first, number), others @ ..] = rest
-                && first == powers
-            {
-                sum = sum.checked_add(*number).ok_or(Refusal::TooLarge)?;
-                rest = others;
-            }
-            if sum != 0 {
-                sums.push((*powers, sum));
-            }
+            terms.push((*powers, number.checked_mul(n).ok_or(Refusal::TooLarge)?));
         }
-        sums.extend_from_slice(rest);
-        Ok(Polynomial(sums))
+        Polynomial::new(terms)
     }
 
     /// Returns minus the polynomial.
@@ -122,13 +108,13 @@ impl Polynomial {
         let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
         for (a, p) in &short.0 {
             for (b, q) in &long.0 {
-                let (mut powers, mut is_too_large) = (*a, false);
+                let mut is_too_large = false;
                 // A loop without an exit is compiled to few instructions.
-                for (n, m) in powers.iter_mut().zip(b) {
-                    let (sum, exceeds) = n.overflowing_add(*m);
-                    *n = sum;
+                let powers = std::array::from_fn(|x| {
+                    let (sum, exceeds) = a[x].overflowing_add(b[x]);
                     is_too_large |= exceeds;
-                }
+                    sum
+                });
                 let number = p.checked_mul(*q).filter(|_| !is_too_large).ok_or(Refusal::TooLarge)?;
                 terms.push((powers, number));
             }

@@ -3,7 +3,6 @@
 use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
 use crate::formula::statement::{Computed, Sequence, Statement};
 use crate::number::Tree;
-use crate::number::tree::Op;
 use std::iter;
 
 /// A premise that a statement does not satisfy.
@@ -12,9 +11,6 @@ pub enum Premise {
     /// A rounded formula, which is discontinuous, occurs in a limit or derivative.
     #[error("rounding is discontinuous, so limits and derivatives of it are not supported")]
     Discontinuous,
-    /// The statement contains more than 48 rounded formulas.
-    #[error("it has more roundings than there are names for errors")]
-    TooManyRoundings,
     /// The statement uses a reserved name.
     #[error("{0} is a reserved name of proofs")]
     ReservedName(&'static str),
@@ -35,9 +31,6 @@ pub const MAX_SIZE: u32 = 20_000;
 /// Maximum depth of a formula in a statement.
 pub const MAX_DEPTH: u32 = 500;
 
-/// Maximum number of rounded formulas in a statement.
-pub const MAX_ROUNDINGS: usize = 48;
-
 /// Checks the premises of a proof: the statement has goals, is not too large, and uses no reserved name, and no
 /// limit or derivative in it is one of a rounded or computed quantity.
 ///
@@ -49,12 +42,9 @@ pub fn check_premises(statement: &Statement) -> Result<(), Premise> {
         return Err(Premise::NoGoals);
     }
     check_names(statement)?;
-    let roundings = roundings(statement.trees());
-    if roundings.len() > MAX_ROUNDINGS {
-        return Err(Premise::TooManyRoundings);
-    }
+    let rounds = statement.trees().any(Tree::contains_rounding);
     // A computed quantity varies with its operands, which its symbol does not show.
-    if (!roundings.is_empty() || !statement.computed().is_empty()) && has_continuous_variable(statement) {
+    if (rounds || !statement.computed().is_empty()) && has_continuous_variable(statement) {
         return Err(Premise::Discontinuous);
     }
     Ok(())
@@ -149,23 +139,6 @@ fn is_name_of_proof(name: &str) -> bool {
 fn has_continuous_variable(statement: &Statement) -> bool {
     let has_limit = statement.conclusion().is_some_and(|sequence| sequence.limit.is_some());
     has_limit || statement.goals().iter().any(|goal| goal.proposition.variable().is_some())
-}
-
-/// Returns the rounded formulas, each after those inside it; their errors are numbered in this order.
-pub fn roundings<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> {
-    fn collect(tree: &Tree, all: &mut Vec<Tree>) {
-        tree.op().operands().for_each(|operand| collect(operand, all));
-        // One more than the maximum suffices to detect that there are too many.
-        if let Op::Rounded(of) = tree.op()
-            && all.len() <= MAX_ROUNDINGS
-            && !all.contains(of)
-        {
-            all.push(of.clone());
-        }
-    }
-    let mut all = Vec::new();
-    trees.for_each(|tree| collect(tree, &mut all));
-    all
 }
 
 #[cfg(test)]

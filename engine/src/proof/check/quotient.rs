@@ -100,32 +100,17 @@ impl Facts {
         facts.iter().try_fold(Sign::Positive, |sign, i| Ok(sign.times(self.get(*i)?.1)))
     }
 
-    /// Returns both numerators over a common denominator, and that denominator.
-    fn with_common_denominator(
-        &self,
-        a: &Quotient,
-        b: &Quotient,
-    ) -> Checked<(Polynomial, Polynomial, Vec<usize>)> {
-        let (more, less) = (without(&b.den, &a.den), without(&a.den, &b.den));
-        let den = [&a.den[..], &more].concat();
-        let [more, less] = [self.product(&more)?, self.product(&less)?];
-        Ok((a.num.times(&more, &self.effort)?, b.num.times(&less, &self.effort)?, den))
-    }
-
     /// Returns a + n b.
     pub fn sum(&self, a: &Quotient, n: i128, b: &Quotient) -> Checked<Quotient> {
-        let (a, b, den) = self.with_common_denominator(a, b)?;
-        Ok(Quotient::new(a.plus_multiple(n, &b, &self.effort)?, den))
+        let (more, less) = (without(&b.den, &a.den), without(&a.den, &b.den));
+        let [left, right] =
+            [(a, &more), (b, &less)].map(|(of, factors)| of.num.times(&self.product(factors)?, &self.effort));
+        let num = left?.plus_multiple(n, &right?, &self.effort)?;
+        Ok(Quotient::new(num, [&a.den[..], &more].concat()))
     }
 
     /// Returns −a.
     pub fn opposite(&self, a: &Quotient) -> Checked<Quotient> {
         self.sum(&Polynomial::zero().into(), -1, a)
-    }
-
-    /// Returns `true` if two quotients are equal, as functions of the variables.
-    pub fn are_equal(&self, a: &Quotient, b: &Quotient) -> Checked<bool> {
-        let (a, b, _) = self.with_common_denominator(a, b)?;
-        Ok(a == b)
     }
 }

@@ -63,12 +63,10 @@ impl<'p> State<'p> {
             Step::Assume(i) => self.assume(*i)?,
             Step::Show(of, certificate) => self.add_fact(of.clone(), self.certify(of, certificate)?),
             Step::Square(of) => {
-                let is_known = of.has_only(|x| x < self.problem.table.atoms().len());
-                let square = of.times(of, &self.facts.effort)?;
-                if !is_known {
+                if !of.has_only(|x| x < self.signs.len()) {
                     return Err(Refusal::Unknown);
                 }
-                self.add_fact(square, Sign::NonNegative);
+                self.add_fact(of.times(of, &self.facts.effort)?, Sign::NonNegative);
             }
             Step::Divisor(factors) => {
                 if !self.facts.sign_of_product(factors)?.is_strict() {
@@ -125,34 +123,32 @@ impl<'p> State<'p> {
         Ok(())
     }
 
+    /// Returns the first of these signs that the facts state; it is the premise of a law.
+    fn premise<const N: usize>(&self, of: &Quotient, signs: [Sign; N]) -> Checked<Sign> {
+        signs.into_iter().find(|sign| self.facts.have(of, *sign)).ok_or(Refusal::Law)
+    }
+
     /// Returns the quantity of an instance of a law, with its sign.
     fn instance(&mut self, law: &Law) -> Checked<(Quotient, Sign)> {
-        use Sign::{NonNegative, NonPositive, Positive, Zero};
-        let of_variable = |x: usize| Polynomial::variable(x).map(Quotient::from);
+        use Sign::{Negative, NonNegative, NonPositive, Positive, Zero};
         Ok(match *law {
             Law::Exponents { ref left, ref right } => {
                 let ([sum, product], [other_sum, other]) = (self.product(left)?, self.product(right)?);
-                if !self.facts.are_equal(&sum, &other_sum)? {
-                    return Err(Refusal::Law);
-                }
+                self.premise(&self.facts.sum(&sum, -1, &other_sum)?, [Zero])?;
                 (self.facts.sum(&product, -1, &other)?, Zero)
             }
             Law::AboveTangent(x) => {
-                let exponent = self.exponent(x)?;
+                let (exponent, power) = (self.exponent(x)?, Polynomial::variable(x)?.into());
                 let tangent = self.facts.sum(&Polynomial::constant(1).into(), 1, &exponent)?;
-                let is_strict =
-                    [Positive, Sign::Negative].iter().any(|sign| self.facts.have(&exponent, *sign));
-                let sign = if is_strict { Positive } else { NonNegative };
-                (self.facts.sum(&of_variable(x)?, -1, &tangent)?, sign)
+                let is_strict = self.premise(&exponent, [Positive, Negative]).is_ok();
+                (self.facts.sum(&power, -1, &tangent)?, if is_strict { Positive } else { NonNegative })
             }
             Law::BelowPole(x) => {
-                let exponent = self.exponent(x)?;
-                let mut signs = [Positive, NonNegative].into_iter();
-                let sign = signs.find(|sign| self.facts.have(&exponent, *sign)).ok_or(Refusal::Law)?;
-                let two = Polynomial::constant(2).into();
-                let [above, below] = [1, -1].map(|n| self.facts.sum(&two, n, &exponent));
-                let product = below?.times(&of_variable(x)?, &self.facts.effort)?;
-                (self.facts.sum(&above?, -1, &product)?, sign)
+                let (exponent, power) = (self.exponent(x)?, Polynomial::variable(x)?.into());
+                let [above, below] =
+                    [1, -1].map(|n| self.facts.sum(&Polynomial::constant(2).into(), n, &exponent));
+                let product = below?.times(&power, &self.facts.effort)?;
+                (self.facts.sum(&above?, -1, &product)?, self.premise(&exponent, [Positive, NonNegative])?)
             }
             Law::AbsoluteValue(of) => {
                 let (value, size) = (self.value(of)?, self.variable(Atom::Size(of))?);
@@ -161,16 +157,13 @@ impl<'p> State<'p> {
             }
             Law::Signed(of) => {
                 let (value, size) = (self.value(of)?, self.variable(Atom::Size(of))?);
-                let mut signs = [(-1, NonNegative), (1, NonPositive)].into_iter();
-                let (n, _) = signs.find(|(_, sign)| self.facts.have(&value, *sign)).ok_or(Refusal::Law)?;
+                let n = if self.premise(&value, [NonNegative, NonPositive])? == NonNegative { -1 } else { 1 };
                 (self.facts.sum(&size.into(), n, &value)?, Zero)
             }
             Law::SameSize([a, b]) => {
                 let (x, y) = (self.value(a)?, self.value(b)?);
-                let [sum, difference] = [1, -1].map(|n| self.facts.sum(&x, n, &y));
-                if ![sum?, difference?].iter().any(|of| self.facts.have(of, Zero)) {
-                    return Err(Refusal::Law);
-                }
+                let [difference, sum] = [-1, 1].map(|n| self.facts.sum(&x, n, &y));
+                self.premise(&difference?, [Zero]).or(self.premise(&sum?, [Zero]))?;
                 let [size, other] = [a, b].map(|of| self.variable(Atom::Size(of)));
                 (self.facts.sum(&size?.into(), -1, &other?.into())?, Zero)
             }
@@ -179,10 +172,8 @@ impl<'p> State<'p> {
                 let (Op::Rounded(x), Op::Rounded(y)) = (table.op(a)?, table.op(b)?) else {
                     return Err(Refusal::Unknown);
                 };
-                let premise = self.difference(x, y)?;
-                if !self.facts.have(&premise, NonNegative) {
-                    return Err(Refusal::Law);
-                }
+                let difference = self.difference(x, y)?;
+                self.premise(&difference, [NonNegative])?;
                 (self.difference(a, b)?, NonNegative)
             }
         })

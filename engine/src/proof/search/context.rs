@@ -3,7 +3,7 @@
 use super::algebra::{FIRST_SLACK, Monomial, Poly, Ratio, UNKNOWN};
 use super::assumption::{Assumption, AssumptionUse, Multiple, SignedRatio};
 use super::choice;
-use super::rules::{Certificate, SignEnv};
+use super::rules::SignEnv;
 use super::symbol::Symbol;
 use crate::formula::Hypothesis;
 use crate::formula::claim::{PRECISION, SCALES};
@@ -133,44 +133,32 @@ impl Context {
     }
 
     /// Returns the sign of a reduced quotient if the rules find those of numerator and denominator.
-    pub(super) fn sign(&self, value: Ratio, factors: &[Certificate]) -> Option<SignedRatio> {
-        self.sign_under(value, factors, &self.signs)
+    pub(super) fn sign(&self, value: Ratio) -> Option<SignedRatio> {
+        self.sign_under(value, &self.signs)
     }
 
     /// Returns the sign of a reduced quotient for the given signs of variables.
-    pub(super) fn sign_under(
-        &self,
-        value: Ratio,
-        factors: &[Certificate],
-        known: &SignEnv,
-    ) -> Option<SignedRatio> {
-        let [num, den] = [value.num(), value.den()].map(|part| choice::sign_of_product(part, factors, known));
+    pub(super) fn sign_under(&self, value: Ratio, known: &SignEnv) -> Option<SignedRatio> {
+        let [num, den] = [value.num(), value.den()].map(|part| choice::sign(part, known));
         let (num, den) = (num?, den?);
         den.sign().is_strict().then_some(SignedRatio { subtracted: None, num, den })
     }
 
     /// Returns the sign of a reduced quotient v, directly or by a [retained](Self::retained) quantity h:
     /// v = m h + (v − m h) has the common sign of the two terms.
-    pub(super) fn sign_by_retained(&self, value: Ratio, factors: &[Certificate]) -> Option<SignedRatio> {
-        self.sign(value.clone(), factors).or_else(|| {
+    pub(super) fn sign_by_retained(&self, value: Ratio) -> Option<SignedRatio> {
+        self.sign(value.clone()).or_else(|| {
             self.retained.iter().rev().find_map(|(h, sign)| {
                 let h = self.reduce(h);
                 let mut multipliers = choice::multipliers(&value, &h, &self.signs).into_iter();
-                multipliers.find_map(|m| self.sign_by_multiple(&value, (&h, *sign), m, factors))
+                multipliers.find_map(|m| self.sign_by_multiple(&value, (&h, *sign), m))
             })
         })
     }
 
     /// Returns the sign of v by those of m h and of v − m h.
-    fn sign_by_multiple(
-        &self,
-        value: &Ratio,
-        (h, sign): (&Ratio, Sign),
-        m: Ratio,
-        factors: &[Certificate],
-    ) -> Option<SignedRatio> {
-        let rest = self.sign(value - &m * h, factors)?;
-        let factor = self.sign(m, factors)?;
+    fn sign_by_multiple(&self, value: &Ratio, (h, sign): (&Ratio, Sign), m: Ratio) -> Option<SignedRatio> {
+        let (rest, factor) = (self.sign(value - &m * h)?, self.sign(m)?);
         let sum_sign = factor.sign().times(sign).plus(rest.sign())?;
         let subtracted = Some(Multiple { factor, of: h.clone(), sum_sign }.into());
         Some(SignedRatio { subtracted, ..rest })
@@ -181,7 +169,7 @@ impl Context {
         let value = self.reduce(&value);
         let mut divided_by = None;
         let used = match sign {
-            _ if self.sign(value.clone(), &[]).is_some_and(|signed| signed.sign().implies(sign)) => {
+            _ if self.sign(value.clone()).is_some_and(|signed| signed.sign().implies(sign)) => {
                 AssumptionUse::Implied
             }
             Sign::Negative | Sign::NonPositive => {
@@ -358,7 +346,7 @@ impl PivotChoice<'_> {
         variables.iter().find_map(|x| {
             let pivot = Monomial::of(*x);
             let by = self.context.reduce(&solve_for(&pivot, self.equation, self.known)?);
-            let sign = self.context.sign_under(by, &[], self.known)?.sign();
+            let sign = self.context.sign_under(by, self.known)?.sign();
             sign.implies(self.context.signs.get(*x)?).then_some(pivot)
         })
     }

@@ -156,7 +156,7 @@ impl Finder<'_, '_> {
         let (rest, product) = self.without_largest_errors(power)?;
         let guide = self.guide;
         let reduced = guide.context.reduce(&rest.into());
-        let signed = guide.context.sign_by_retained(reduced, &[]).ok_or("the sign of a power")?;
+        let signed = guide.context.sign_by_retained(reduced).ok_or("the sign of a power")?;
         let form = self.form(&signed, &[])?;
         Ok(self.without_slacks(form)? * Ratio::from(product))
     }

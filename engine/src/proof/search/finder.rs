@@ -41,36 +41,6 @@ impl<'f, 'p> Finder<'f, 'p> {
         Finder::new(guide, proof, 0).shown(of, den, signed).map(|_| ())
     }
 
-    /// Shows a multiple, or divisor, of a fact about an order of rounded formulas. Returns `false` if it is none.
-    pub fn by_order(guide: &Knowledge<'p>, of: &Polynomial, proof: &mut Steps<'p>) -> Result<bool> {
-        let value = poly(of);
-        let count = proof.state.facts.iter().len();
-        for i in (0..count).rev() {
-            let fact = poly(&proof.state.facts.get(i)?.0);
-            let (quotient, is_multiple) = match value.checked_div(&fact) {
-                Some(quotient) => (quotient, true),
-                None => match fact.checked_div(&value) {
-                    Some(quotient) => (quotient, false),
-                    None => continue,
-                },
-            };
-            let reduced = guide.context.reduce(&quotient.into());
-            let Some(signed) = guide.sign(reduced) else { continue };
-            let mut finder = Finder::new(guide, &mut *proof, 0);
-            let found = finder.form(&signed, &[]).and_then(|form| finder.without_slacks(form));
-            let (Ok(form), symbol) = (found, finder.fact(i)) else { continue };
-            let symbol = Ratio::from(symbol);
-            let form = if is_multiple { Some(form * symbol) } else { symbol.checked_div(&form) };
-            if let Some(form) = form
-                && let Ok(found) = finder.equated(of, form)
-                && finder.proof.add(Step::Show(of.clone(), found)).is_ok()
-            {
-                return Ok(true);
-            }
-        }
-        Ok(false)
-    }
-
     /// Returns the variable of a fact, which becomes part of the certificate. If there are too many, the checker
     /// refuses it.
     pub fn variable(&mut self, fact: usize) -> Poly {

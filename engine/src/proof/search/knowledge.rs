@@ -2,14 +2,11 @@
 
 use super::algebra::{Poly, Ratio};
 use super::assumption::{AssumptionUse, SignedRatio};
-use super::choice;
 use super::context::Context;
 use super::dictionary::poly;
 use super::error::Quantity;
-use super::rules::Certificate;
 use crate::formula::Hypothesis;
-use crate::number::tree::Op;
-use crate::proof::check::{Atom, Polynomial, Problem, Refusal, Sign, State};
+use crate::proof::check::{Atom, Polynomial, Problem, Sign};
 use std::collections::BTreeMap;
 
 /// A fact of the checker for an assumption, whose quantity is `scale` times the fact divided by other facts.
@@ -29,8 +26,6 @@ pub struct Knowledge<'a> {
     pub slacks: Vec<(usize, Ratio)>,
     /// The fact of each assumption, except for those of intervals and absolute values.
     pub facts: Vec<Option<AssumedFact>>,
-    /// The signs of factors of divisors.
-    pub factors: Vec<Certificate>,
     /// The facts about absolute values that are atoms, by their variables.
     pub sizes: BTreeMap<usize, usize>,
 }
@@ -38,8 +33,8 @@ pub struct Knowledge<'a> {
 impl<'a> Knowledge<'a> {
     /// Returns the knowledge before any assumption.
     pub fn new(problem: &'a Problem) -> Self {
-        let (slacks, facts, factors, sizes) = Default::default();
-        Knowledge { problem, context: Context::new(problem), slacks, facts, factors, sizes }
+        let (slacks, facts, sizes) = Default::default();
+        Knowledge { problem, context: Context::new(problem), slacks, facts, sizes }
     }
 
     /// Returns a quantity at which the search ends.
@@ -99,23 +94,7 @@ impl<'a> Knowledge<'a> {
 
     /// Returns the sign of a reduced quantity if the rules find it.
     pub fn sign(&self, value: Ratio) -> Option<SignedRatio> {
-        self.context.sign_by_retained(value, &self.factors)
-    }
-
-    /// Records the signs of the factors of a divisor.
-    pub fn collect_factors(&mut self, divisor: usize, state: &mut State) -> Result<(), Refusal> {
-        match self.problem.table.op(divisor)? {
-            Op::Mul(a, b) => [a, b].into_iter().try_for_each(|factor| self.collect_factors(factor, state)),
-            Op::Neg(a) | Op::Div(a, _) | Op::Rounded(a) => self.collect_factors(a, state),
-            _ => {
-                let value = state.value(divisor)?;
-                let factor = self.reduced_quotient(&value, state);
-                if self.factors.iter().all(|known| known.of() != factor.num()) {
-                    self.factors.extend(choice::sign(factor.num(), &self.context.signs));
-                }
-                Ok(())
-            }
-        }
+        self.context.sign_by_retained(value)
     }
 
     /// Returns the fact of a retained quantity.

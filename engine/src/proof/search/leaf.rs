@@ -33,8 +33,6 @@ pub struct Search<'a> {
     pub position: usize,
     /// The last quantity whose sign was required.
     pub required: Option<Quotient>,
-    /// Whether the goal rests on an order of rounded formulas.
-    is_ordered: bool,
     /// The exponentials that were met, as variables.
     pub exponentials: Vec<usize>,
     /// Their laws that may still be listed.
@@ -68,10 +66,10 @@ impl<'a> Search<'a> {
     pub fn new(problem: &'a Problem<'a>, decisions: &[Decision]) -> Result<Self> {
         let cases: Vec<_> = decisions.iter().filter_map(case).collect();
         let proof = Steps { state: State::new(problem, &cases)?, steps: Vec::new() };
-        let (sizes, position, required, is_ordered) = Default::default();
+        let (sizes, position, required) = Default::default();
         let (exponentials, laws, met) = Default::default();
         let known = Knowledge::new(problem);
-        Ok(Search { known, proof, sizes, position, required, is_ordered, exponentials, laws, met })
+        Ok(Search { known, proof, sizes, position, required, exponentials, laws, met })
     }
 
     pub fn problem(&self) -> &'a Problem<'a> {
@@ -126,16 +124,21 @@ impl<'a> Search<'a> {
 
     /// Shows that fl(a) ≥ fl(b), from a ≥ b, for the numbers of these two formulas.
     pub fn order(&mut self, a: usize, b: usize) -> Result<()> {
-        self.is_ordered = true;
-        let [Op::Rounded(x), Op::Rounded(y)] =
-            [a, b].map(|of| self.problem().table.op(of).unwrap_or(Op::Int(0)))
-        else {
-            return Err(Refusal::Unknown.into());
-        };
+        let (x, y) = (self.inside(a)?, self.inside(b)?);
         self.show_sum(&[(1, x), (-1, y)], Use::Goal)?;
         [a, b].into_iter().try_for_each(|of| self.value(of).map(|_| ()))?;
-        self.proof.add(Step::Law(Law::Order([a, b])))?;
+        let fact = self.proof.add(Step::Law(Law::Order([a, b])))?;
+        let (of, sign) = self.proof.state.facts.get(fact)?;
+        self.known.retain(fact, of, *sign, Poly::constant(1));
         Ok(())
+    }
+
+    /// Returns the formula that a rounded formula rounds.
+    fn inside(&self, rounded: usize) -> Result<usize> {
+        match self.problem().table.op(rounded)? {
+            Op::Rounded(of) => Ok(of),
+            _ => Err(Refusal::Unknown.into()),
+        }
     }
 
     /// Shows the goal.
@@ -202,13 +205,10 @@ impl<'a> Search<'a> {
         if of.num.is_zero() || fact.is_some_and(is_definite) {
             return Ok(());
         }
-        if self.is_ordered && fact.is_none() && Finder::by_order(&self.known, &of.num, &mut self.proof)? {
-            return Ok(());
-        }
         self.required = Some(of.clone());
         // The numerator is shorter than the quotient, but its sign may be found by the other's alone.
         let direct = self.known.reduced(&of.num);
-        let signed = self.known.context.sign(direct.clone(), &self.known.factors);
+        let signed = self.known.context.sign(direct.clone());
         let signed = signed.filter(|signed| match fact {
             Some(_) => is_definite(signed.sign()),
             None => self.suffices(usage, signed.sign()),
@@ -320,7 +320,6 @@ impl<'a> Search<'a> {
         if value.num.has_only(|_| false) && !value.num.is_zero() {
             return Ok(());
         }
-        self.known.collect_factors(formula, &mut self.proof.state)?;
         loop {
             let reduced = self.known.reduced_quotient(value, &self.proof.state);
             let signed = self.known.sign(reduced.clone());
