@@ -24,7 +24,7 @@
 //! of overflow and underflow. *Proof.* Let 2ᵏ ≤ |x| < 2ᵏ⁺¹. Then |fl(x) − x| is at most 2ᵏ/2ᵖ, and, since 2ᵏ
 //! itself has p bits, at most |x| − 2ᵏ. Adding the second bound to 2ᵖ times the first gives
 //! (2ᵖ + 1) |fl(x) − x| ≤ 2ᵏ + |x| − 2ᵏ = |x|. □ A change of units by a power of two leaves the digits as they are, so
-//! formulas that [differ by one](Table::rounding) share their e. Rounding is monotone, so fl(a) ≥ fl(b) if a ≥ b; it
+//! formulas that differ by one share their e. Rounding is monotone, so fl(a) ≥ fl(b) if a ≥ b; it
 //! is not continuous, so limits and derivatives of rounded formulas are refused.
 //!
 //! # Exponentials

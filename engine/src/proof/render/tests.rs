@@ -252,7 +252,7 @@ fn cases(proof: Vec<String>) -> Vec<String> {
     proof.into_iter().filter(|line| line.contains("case ")).collect()
 }
 
-/// Of a formula of more than 24 terms, or 160 characters, the shape is written.
+/// The shape of a formula of more than 16 terms, or 100 characters, is written in its place.
 #[test]
 fn long_formulas_have_a_shape() {
     let value = |n| {
