@@ -47,50 +47,6 @@ use dictionary::{integral, polynomial};
 use leaf::Search;
 use std::collections::BTreeSet;
 
-/// The reason why a search ended without a leaf.
-#[derive(Clone, Debug)]
-pub enum Failure {
-    /// The branch of a positive part, minimum or absolute value is undecided by this quantity.
-    Branch(Quantity),
-    /// The reason for which no proof is found.
-    Error(ProofError),
-    /// A sign that was found could not be expressed by certificates.
-    NotExpressed(&'static str),
-    /// The checker refuses the leaf.
-    Refused(Refusal),
-}
-
-impl From<&'static str> for Failure {
-    fn from(reason: &'static str) -> Self {
-        Failure::NotExpressed(reason)
-    }
-}
-
-impl From<ProofError> for Failure {
-    fn from(reason: ProofError) -> Self {
-        Failure::Error(reason)
-    }
-}
-
-impl From<Refusal> for Failure {
-    fn from(reason: Refusal) -> Self {
-        Failure::Refused(reason)
-    }
-}
-
-impl From<Failure> for ProofError {
-    fn from(failure: Failure) -> Self {
-        match failure {
-            Failure::Branch(value) => ProofError::UndecidedBranch(value),
-            Failure::Error(reason) => reason,
-            Failure::NotExpressed(reason) => ProofError::NotExpressed(reason),
-            Failure::Refused(Refusal::NotDifferentiable) => ProofError::NotDifferentiable,
-            Failure::Refused(Refusal::TooLarge) => ProofError::NotExpressed("it is too large"),
-            Failure::Refused(_) => ProofError::NotExpressed("the checker refuses it"),
-        }
-    }
-}
-
 /// Maximum number of nested case distinctions.
 const MAX_NESTED_CASES: usize = 4;
 
@@ -134,8 +90,8 @@ pub(in crate::proof) fn prove_proposition(
 }
 
 fn solve(proposition: &Proposition, hypotheses: Vec<&Hypothesis>) -> Result<Node, ProofError> {
-    let problem = Problem::new(proposition, hypotheses).map_err(Failure::from)?;
-    let found = Attempt { problem: &problem }.certify(&[]).map_err(ProofError::from);
+    let problem = Problem::new(proposition, hypotheses)?;
+    let found = Attempt { problem: &problem }.certify(&[]);
     found.map_err(|reason| {
         let is_unknown = reason.quantity().is_some_and(|of| of.value.variables().contains(&UNKNOWN));
         if problem.effort.is_exceeded() || is_unknown { ProofError::TooLarge(MAX_EFFORT) } else { reason }
@@ -176,7 +132,7 @@ struct Attempt<'a> {
 
 impl<'a> Attempt<'a> {
     /// Returns a proof under the assumptions of these decisions.
-    fn certify(&self, decisions: &[Decision]) -> Result<Node, Failure> {
+    fn certify(&self, decisions: &[Decision]) -> Result<Node, ProofError> {
         let mut search = Search::new(self.problem, decisions)?;
         let failure = match self.read(&mut search, decisions) {
             Ok(()) => return Ok(Node::Leaf(search.proof.steps)),
@@ -184,7 +140,7 @@ impl<'a> Attempt<'a> {
         };
         let script = [decisions, &search.sizes].concat();
         let found = match &failure {
-            Failure::Branch(of) => self.cases(&search, &script, search.position, &of.value),
+            ProofError::UndecidedBranch(of) => self.cases(&search, &script, search.position, &of.value),
             _ => Err(failure.clone()),
         };
         // An absolute value that does not suffice is replaced by cases.
@@ -198,32 +154,36 @@ impl<'a> Attempt<'a> {
     }
 
     /// Returns the reason for which a goal does not follow from the steps found.
-    fn explained(&self, search: &Search, failure: Failure) -> Failure {
+    fn explained(&self, search: &Search, failure: ProofError) -> ProofError {
         let is_at_end = search.position == self.problem.hypotheses.len();
         let is_limit = self.problem.variable().is_some();
         let required = match failure {
-            Failure::Error(ProofError::UnknownSign(_)) | Failure::Refused(Refusal::Limit)
-                if is_limit && is_at_end =>
-            {
+            ProofError::UnknownSign(_) | ProofError::Refused(Refusal::Limit) if is_limit && is_at_end => {
                 search.proof.state.clone().value(self.problem.goal[0]).ok()
             }
-            Failure::Refused(Refusal::Goal) => search.required.clone(),
+            ProofError::Refused(Refusal::Goal) => search.required.clone(),
             _ => None,
         };
         let Some(required) = required else { return failure };
         let value = search.known.reduced_quotient(&required, &search.proof.state);
         let quantity = search.known.quantity(value.clone());
         match search.known.sign(value) {
-            _ if is_limit => ProofError::UnknownLimit(quantity).into(),
-            Some(signed) => ProofError::WrongSign(quantity, signed.sign()).into(),
+            _ if is_limit => ProofError::UnknownLimit(quantity),
+            Some(signed) => ProofError::WrongSign(quantity, signed.sign()),
             None => failure,
         }
     }
 
     /// Returns a proof in the two cases of a quantity.
-    fn cases(&self, search: &Search, script: &[Decision], at: usize, value: &Ratio) -> Result<Node, Failure> {
+    fn cases(
+        &self,
+        search: &Search,
+        script: &[Decision],
+        at: usize,
+        value: &Ratio,
+    ) -> Result<Node, ProofError> {
         if script.iter().filter_map(case).count() >= MAX_NESTED_CASES {
-            return Err(Failure::Branch(search.known.quantity(value.clone())));
+            return Err(ProofError::UndecidedBranch(search.known.quantity(value.clone())));
         }
         let known = &search.known;
         let deciding = known.context.sign_numerator(value);
@@ -242,7 +202,7 @@ impl<'a> Attempt<'a> {
     }
 
     /// Lists the steps to the goal.
-    fn read(&self, search: &mut Search<'a>, decisions: &[Decision]) -> Result<(), Failure> {
+    fn read(&self, search: &mut Search<'a>, decisions: &[Decision]) -> Result<(), ProofError> {
         let (order, mut read) = (self.order(), BTreeSet::new());
         for (position, i) in order.iter().enumerate() {
             search.follow(position, decisions);
@@ -258,12 +218,11 @@ impl<'a> Attempt<'a> {
 
     /// Returns the reason for which a hypothesis is not used. One on the variable of a limit is named, unless cases may
     /// still help.
-    fn not_assumed(&self, i: usize, reason: Failure) -> Failure {
+    fn not_assumed(&self, i: usize, reason: ProofError) -> ProofError {
         match reason {
-            Failure::Error(_) | Failure::Refused(_) if self.problem.mentions_variable(i) => {
-                ProofError::EndingHypothesis(self.problem.hypotheses[i].value.clone()).into()
-            }
-            reason => reason,
+            ProofError::UndecidedBranch(_) | ProofError::NotExpressed(_) => reason,
+            _ if !self.problem.mentions_variable(i) => reason,
+            _ => ProofError::EndingHypothesis(self.problem.hypotheses[i].value.clone()),
         }
     }
 

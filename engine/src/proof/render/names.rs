@@ -107,6 +107,7 @@ impl ProofError {
             | ProofError::EndingHypothesis(_)
             | ProofError::Premise(_)
             | ProofError::TooLarge(_)
+            | ProofError::Refused(_)
             | ProofError::NotExpressed(_) => None,
         }
     }

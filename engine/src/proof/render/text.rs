@@ -146,6 +146,7 @@ pub(super) fn justify(of: &ProofError, text: &dyn Fn(&Tree) -> String, factors: 
         NotDifferentiable => "⟨·⟩ and min are not differentiable at kinks".to_string(),
         TooLarge(most) => format!("its proof exceeds the limit of {most} terms"),
         NotExpressed(reason) => format!("its proof cannot be checked: {reason}"),
+        Refused(refusal) => format!("its proof cannot be checked: the checker refuses it ({refusal:?})"),
     }
 }
 

@@ -4,7 +4,7 @@ use super::algebra::Ratio;
 use super::context::Context;
 use super::symbol::Symbol;
 use crate::number::Tree;
-use crate::proof::check::{Premise, Sign};
+use crate::proof::check::{Premise, Refusal, Sign};
 use std::sync::Arc;
 
 /// The reason why a statement could not be proved.
@@ -28,6 +28,8 @@ pub enum ProofError {
     EndingHypothesis(Tree),
     /// A sign was found that could not be expressed by certificates, for this reason.
     NotExpressed(&'static str),
+    /// The checker refuses a step.
+    Refused(Refusal),
     /// The statement does not satisfy a premise.
     Premise(Premise),
     /// The search exceeds this maximum.
@@ -56,5 +58,21 @@ impl Quantity {
 impl From<Premise> for ProofError {
     fn from(premise: Premise) -> Self {
         ProofError::Premise(premise)
+    }
+}
+
+impl From<&'static str> for ProofError {
+    fn from(reason: &'static str) -> Self {
+        ProofError::NotExpressed(reason)
+    }
+}
+
+impl From<Refusal> for ProofError {
+    fn from(refusal: Refusal) -> Self {
+        match refusal {
+            Refusal::NotDifferentiable => ProofError::NotDifferentiable,
+            Refusal::TooLarge => ProofError::NotExpressed("it is too large"),
+            refusal => ProofError::Refused(refusal),
+        }
     }
 }

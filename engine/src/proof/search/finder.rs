@@ -1,6 +1,6 @@
 //! The search for certificates.
 
-use super::Failure;
+use super::ProofError;
 use super::algebra::{Monomial, Poly, Ratio};
 use super::assumption::{AssumptionUse, SignedRatio};
 use super::dictionary::{poly, polynomial};
@@ -13,7 +13,7 @@ use crate::proof::check::{Certificate, MAX_VARIABLES, Polynomial, Step};
 const MAX_DEPTH: u32 = 4;
 
 /// The result of a part of a search.
-pub type Result<T> = std::result::Result<T, Failure>;
+pub type Result<T> = std::result::Result<T, ProofError>;
 
 /// A search for one certificate.
 pub struct Finder<'f, 'p> {

@@ -1,11 +1,11 @@
 //! The search for the steps of a leaf: whatever the translation of a formula requires is found, and listed.
 
+use super::ProofError;
 use super::algebra::{Poly, Ratio};
 use super::dictionary::{poly, polynomial};
 use super::finder::{Finder, Result};
 use super::knowledge::{AssumedFact, Knowledge};
 use super::{Decision, case};
-use super::{Failure, ProofError};
 use crate::formula::Relation;
 use crate::formula::claim::PRECISION;
 use crate::formula::statement::Proposition;
@@ -228,15 +228,15 @@ impl<'a> Search<'a> {
             if self.list_law()? {
                 return self.show(of, usage);
             }
-            return Err(ProofError::Unequal(self.known.quantity(value)).into());
+            return Err(ProofError::Unequal(self.known.quantity(value)));
         }
         if signed.is_none() && self.list_law()? {
             return self.show(of, usage);
         }
         match signed {
             Some(signed) => Finder::show(&self.known, &of.num, &of.den, &signed, &mut self.proof),
-            None if usage == Use::Branch => Err(Failure::Branch(self.known.quantity(value))),
-            None => Err(ProofError::UnknownSign(self.known.quantity(value)).into()),
+            None if usage == Use::Branch => Err(ProofError::UndecidedBranch(self.known.quantity(value))),
+            None => Err(ProofError::UnknownSign(self.known.quantity(value))),
         }
     }
 
@@ -328,7 +328,7 @@ impl<'a> Search<'a> {
             }
             if value.num.is_zero() || !self.list_law()? {
                 let divisor = self.problem().table.formula(formula)?.clone();
-                return Err(ProofError::PossibleZeroDivisor(divisor, self.known.quantity(reduced)).into());
+                return Err(ProofError::PossibleZeroDivisor(divisor, self.known.quantity(reduced)));
             }
         }
     }
@@ -338,7 +338,7 @@ impl<'a> Search<'a> {
         let largest = self.known.context.inverse_gamma();
         if !self.known.sign(largest.clone()).is_some_and(|signed| signed.sign().is_strict()) {
             let divisor = Tree::symbol(PRECISION) + Tree::from(1);
-            return Err(ProofError::PossibleZeroDivisor(divisor, self.known.quantity(largest)).into());
+            return Err(ProofError::PossibleZeroDivisor(divisor, self.known.quantity(largest)));
         }
         let largest = polynomial(&self.known.context.largest);
         self.strict(&largest.ok_or("a precision")?)?;
