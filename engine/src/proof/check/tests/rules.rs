@@ -182,6 +182,8 @@ fn absolute_values() -> Vec<Forged> {
     accept(&at_most, &[leaf(0, of(&at_most, Law::AbsoluteValue, &u, vec![margin(&page)]))]);
     let opposite = equal("f", u.abs(), (-&u).abs());
     accept(&opposite, &[leaf(0, same(&opposite, [&u, &-&u]))]);
+    let equal_sums = equal("f", (&u + &v).abs(), (&v + &u).abs());
+    accept(&equal_sums, &[leaf(0, same(&equal_sums, [&(&u + &v), &(&v + &u)]))]);
     let others = equal("f", u.abs(), v.abs());
     let (strict, is_own) = (positive("f", u.abs()), equal("f", u.abs(), &u));
     let own = is_own.clone().assuming(&[not_below_zero(&u)]);
