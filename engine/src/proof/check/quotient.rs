@@ -76,8 +76,8 @@ impl Facts {
 
     /// Returns `true` if the facts state that a quotient has a sign.
     pub fn have(&self, of: &Quotient, sign: Sign) -> bool {
+        let Ok(sign_of_den) = self.sign_of_product(&of.den) else { return false };
         let states = |(known, known_sign): &(Polynomial, Sign)| {
-            let sign_of_den = self.sign_of_product(&of.den).unwrap_or(Sign::Zero);
             known_sign.times(sign_of_den).implies(sign) && *known == of.num
         };
         (of.num.is_zero() && Sign::Zero.implies(sign)) || self.all.iter().any(states)
@@ -107,10 +107,5 @@ impl Facts {
             [(a, &more), (b, &less)].map(|(of, factors)| of.num.times(&self.product(factors)?, &self.effort));
         let num = left?.plus_multiple(n, &right?, &self.effort)?;
         Ok(Quotient::new(num, [&a.den[..], &more].concat()))
-    }
-
-    /// Returns −a.
-    pub fn opposite(&self, a: &Quotient) -> Checked<Quotient> {
-        self.sum(&Polynomial::zero().into(), -1, a)
     }
 }

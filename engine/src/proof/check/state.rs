@@ -229,7 +229,7 @@ impl<'p> State<'p> {
             Int(n) => Polynomial::constant(n.into()).into(),
             Neg(a) => {
                 let a = self.value(a)?;
-                self.facts.opposite(&a)?
+                self.facts.sum(&Polynomial::zero().into(), -1, &a)?
             }
             Add(a, b) => {
                 let (a, b) = (self.value(a)?, self.value(b)?);

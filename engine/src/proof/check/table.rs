@@ -95,7 +95,7 @@ impl Table {
     }
 
     /// Returns the powers of scales by which a formula is a multiple of one without scales, and the number of that one;
-    /// `None` if it is no such multiple. `known` are those of its operands, and `tree` is any formula.
+    /// `None` if it is not such a multiple. `known` are those of its operands, and `tree` is any formula.
     ///
     /// Scales are positive, so they are factors of minima and positive parts; and powers of two, so they are factors of
     /// rounded formulas. The order of two summands or factors does not matter.

@@ -224,16 +224,12 @@ impl<'a> Search<'a> {
         let signed = self.known.sign(value.clone());
         let requires_zero =
             matches!(self.problem().proposition, Proposition::Equal(..) | Proposition::Derivative(..));
-        if requires_zero && usage == Use::Goal && !value.is_zero() {
-            if self.list_law()? {
-                return self.show(of, usage);
-            }
-            return Err(ProofError::Unequal(self.known.quantity(value)));
-        }
-        if signed.is_none() && self.list_law()? {
+        let is_unequal = requires_zero && usage == Use::Goal && !value.is_zero();
+        if (is_unequal || signed.is_none()) && self.list_law()? {
             return self.show(of, usage);
         }
         match signed {
+            _ if is_unequal => Err(ProofError::Unequal(self.known.quantity(value))),
             Some(signed) => Finder::show(&self.known, &of.num, &of.den, &signed, &mut self.proof),
             None if usage == Use::Branch => Err(ProofError::UndecidedBranch(self.known.quantity(value))),
             None => Err(ProofError::UnknownSign(self.known.quantity(value))),

@@ -85,14 +85,13 @@ fn both_cases_are_proved() {
     let u = x("u");
     let claim = non_negative("f", u.positive_part() + (-&u).positive_part());
     let page = Page::of(&claim);
-    let first = || leaf(0, vec![page.show(-&u, &[1], 1, -x("z₁"))]);
-    let second = || leaf(0, vec![page.show(-&u, &[1], 1, -x("z₁"))]);
-    accept(&claim, &[cases(page.poly(&u), first(), second())]);
+    let either = || leaf(0, vec![page.show(-&u, &[1], 1, -x("z₁"))]);
+    accept(&claim, &[cases(page.poly(&u), either(), either())]);
     let wrong = || leaf(0, vec![page.form(-&u)]);
     let on = |of: Polynomial, a: Node, b: Node| vec![cases(of, a, b)];
     let (lonely, weak) = (positive("f", &u), positive("f", u.positive_part() + (-&u).positive_part()));
     let of_lonely = Page::of(&lonely);
-    let deep = (0..=MAX_NESTING).fold(first(), |inner, _| cases(page.poly(1), inner, leaf(0, vec![])));
+    let deep = (0..=MAX_NESTING).fold(either(), |inner, _| cases(page.poly(1), inner, leaf(0, vec![])));
     refuse(vec![
         (
             "a case left out",
@@ -101,12 +100,12 @@ fn both_cases_are_proved() {
             Refusal::Goal,
         ),
         ("no cases", claim.clone(), vec![wrong()], Refusal::Form),
-        ("a case that is not strict", weak, on(page.poly(&u), first(), second()), Refusal::Goal),
-        ("a case of nothing", claim.clone(), on(page.poly(x("z₁")), first(), second()), Refusal::Unknown),
+        ("a case that is not strict", weak, on(page.poly(&u), either(), either()), Refusal::Goal),
+        ("a case of nothing", claim.clone(), on(page.poly(x("z₁")), either(), either()), Refusal::Unknown),
         (
             "cases of another quantity",
             claim.clone(),
-            on(page.poly(&u + n(1)), first(), second()),
+            on(page.poly(&u + n(1)), either(), either()),
             Refusal::Identity,
         ),
         ("cases inside each other", claim.clone(), vec![deep], Refusal::TooLarge),

@@ -116,7 +116,7 @@ fn exponentials() -> Vec<Forged> {
     let law = Refusal::Law;
     vec![
         forged("exponents of another sum", &other, of(&other, &["E₁", "E₂"], &["E₃"]), law),
-        forged("exponents that are no 0", &reciprocal, of(&reciprocal, &["E₁"], &[]), law),
+        forged("exponents whose sum is not 0", &reciprocal, of(&reciprocal, &["E₁"], &[]), law),
         forged("the exponent of a symbol", &product, of(&product, &["a", "E₂"], &["E₃"]), Refusal::Unknown),
         forged("an undefined exponent", &undefined, of(&undefined, &["E₁"], &[]), Refusal::Divisor),
         forged("an undefined exponential", &undefined, vec![], Refusal::Divisor),
