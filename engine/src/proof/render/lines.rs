@@ -31,6 +31,9 @@ pub(super) struct Lines<'a> {
 /// The facts that are named at a leaf.
 type Names = BTreeMap<usize, Tree>;
 
+/// A step, the number of the fact that it adds, and the values that are decided with it.
+type Added<'s> = (&'s Step, usize, Vec<String>);
+
 impl<'a> Lines<'a> {
     /// Returns a writer for a goal.
     pub(super) fn new(printer: &'a ProofPrinter<'a>, problem: &'a Problem<'a>) -> Self {
@@ -82,13 +85,20 @@ impl<'a> Lines<'a> {
     }
 
     fn leaf(&self, steps: &[Step], cases: &[(Polynomial, Sign)]) -> Result<Vec<String>> {
-        let (names, goals) = self.names(steps, cases)?;
-        let (mut state, mut lines) = (State::new(self.problem, cases)?, Vec::from_iter(self.errors()));
-        let mut long = 0;
+        let (mut state, mut decided) = (State::new(self.problem, cases)?, Vec::new());
+        let mut added = Vec::with_capacity(steps.len());
         for step in steps {
-            let (before, fact) = (state.clone(), state.facts.iter().len());
+            let fact = state.facts.iter().len();
             state.apply(step)?;
-            lines.extend(self.branches(&before, &mut state)?);
+            added.push((step, fact, self.branches(&mut decided, &mut state)?));
+        }
+        state.proves_goal()?;
+        let last = self.branches(&mut decided, &mut state)?;
+        let goals: Vec<_> = self.goals(&mut state)?.into_iter().map(|(_, goal)| goal.num).collect();
+        let names = self.names(&state, &added, cases.len(), &goals);
+        let (mut lines, mut long) = (Vec::from_iter(self.errors()), 0);
+        for (step, fact, branches) in added {
+            lines.extend(branches);
             match step {
                 Step::Show(of, _) if self.form(of, &[]).is_none() && !goals.contains(of) => long += 1,
                 _ => lines.extend(self.step(step, &state, fact, &names)),
@@ -97,35 +107,30 @@ impl<'a> Lines<'a> {
         if long > 0 {
             lines.push(format!("other signs of long sums: {long}, by identities in --format json"));
         }
-        let before = state.clone();
-        state.proves_goal()?;
-        lines.extend(self.branches(&before, &mut state)?);
+        lines.extend(last);
         lines.extend(self.goal(&mut state, &names)?);
         Ok(lines)
     }
 
-    /// Returns the names of facts, those that certificates refer to, assumptions, and the goal; and the goal.
-    fn names(&self, steps: &[Step], cases: &[(Polynomial, Sign)]) -> Result<(Names, Vec<Polynomial>)> {
-        let mut state = State::new(self.problem, cases)?;
-        let mut named: Vec<_> = (1..=cases.len()).collect();
-        for step in steps {
-            let fact = state.facts.iter().len();
-            state.apply(step)?;
+    /// Returns the names of facts: those that certificates refer to, assumptions, and the goal.
+    fn names(&self, state: &State, added: &[Added], cases: usize, goals: &[Polynomial]) -> Names {
+        let mut named: Vec<_> = (1..=cases).collect();
+        for (step, fact, _) in added {
             match step {
                 Step::Show(_, certificate) => named.extend(&certificate.known),
-                Step::Assume(_) if state.facts.get(fact).is_ok_and(|(of, _)| of.terms().len() > 1) => {
-                    named.push(fact)
+                Step::Assume(i) if self.problem.hypotheses[*i].interval().is_none() => {
+                    named.extend(
+                        state.facts.get(*fact).is_ok_and(|(of, _)| of.terms().len() > 1).then_some(*fact),
+                    );
                 }
                 _ => {}
             }
         }
-        let goals: Vec<_> = self.goals(&mut state)?.into_iter().map(|(_, goal)| goal.num).collect();
         let facts = state.facts.iter().enumerate().filter(|(i, (of, _))| {
             let is_goal = of.terms().len() > 1 && goals.contains(of);
             (is_goal || named.contains(i)) && !of.has_only(|_| false)
         });
-        let names = facts.zip(0..).map(|((i, _), number)| (i, Tree::symbol(subscripted('s', number))));
-        Ok((names.collect(), goals))
+        facts.zip(0..).map(|((i, _), number)| (i, Tree::symbol(subscripted('s', number)))).collect()
     }
 
     /// Returns the quantities whose signs prove the goal, each after what they are.
@@ -162,8 +167,9 @@ impl<'a> Lines<'a> {
             .then(|| format!("fl(…) = … (1 + eᵢ / ({PRECISION} + 1)) with |eᵢ| ≤ 1: {errors}"))
     }
 
-    /// Returns the values of short minima and positive parts that are decided since.
-    fn branches(&self, before: &State, state: &mut State) -> Result<Vec<String>> {
+    /// Returns the values of short minima and positive parts that were decided since, and adds these to those before.
+    fn branches(&self, decided: &mut Vec<usize>, state: &mut State) -> Result<Vec<String>> {
+        decided.retain(|i| state.has_value(*i));
         let mut lines = Vec::new();
         for (i, op) in (0..).map_while(|i| Some((i, self.problem.table.op(i).ok()?))) {
             let (first, second) = match op {
@@ -172,9 +178,10 @@ impl<'a> Lines<'a> {
                 Op::Min(a, b) => (a, Some(b)),
                 _ => continue,
             };
-            if before.has_value(i) || !state.has_value(i) {
+            if decided.contains(&i) || !state.has_value(i) {
                 continue;
             }
+            decided.push(i);
             let is_first = state.value(i)? == state.value(first)?;
             let branch = if is_first { Some(first) } else { second };
             let value = branch.map_or("0".into(), |of| self.formula(of));
@@ -189,6 +196,8 @@ impl<'a> Lines<'a> {
     /// Returns the line about a step that adds the fact with this number.
     fn step(&self, step: &Step, state: &State, fact: usize, names: &Names) -> Option<String> {
         let line = match step {
+            // Neither of these adds a fact.
+            Step::Divisor(_) => return None,
             Step::Assume(i) if self.problem.hypotheses[*i].interval().is_some() => return self.interval(*i),
             Step::Show(of, certificate) if of.terms().len() > 1 => self.shown(of, certificate, names),
             Step::Law(Law::Order([a, b])) => {
