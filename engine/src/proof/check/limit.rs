@@ -47,7 +47,7 @@ impl State<'_> {
         let den = of.den.iter().map(|i| Ok(&self.facts.get(*i)?.0));
         for part in [Ok(&of.num)].into_iter().chain(den) {
             let (degree, leading) = part?.leading(x);
-            if !part?.has_only(|y| x == y || !self.problem.depends_on(y, x)) {
+            if !part?.has_only(|y| x == y || !self.problem.varies(y)) {
                 return Err(Refusal::Limit);
             }
             excess += if coefficients.is_empty() { i32::from(degree) } else { -i32::from(degree) };
@@ -105,7 +105,7 @@ impl State<'_> {
     ///   are refused like the absolute value.
     pub fn without_vanishing_terms(&mut self, of: &Polynomial, x: usize) -> Checked<Polynomial> {
         let (mut rest, problem) = (of.clone(), self.problem);
-        let varies = |y: &usize| *y != x && of.degree(*y) > 0 && problem.depends_on(*y, x);
+        let varies = |y: &usize| *y != x && of.degree(*y) > 0 && problem.varies(*y);
         for y in (0..problem.table.atoms().len()).filter(varies) {
             let exponent = self.exponent(y).map_err(|_| Refusal::Limit)?;
             let (excess, coefficients) = self.leading(&exponent, x)?;

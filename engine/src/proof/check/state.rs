@@ -5,7 +5,7 @@ use super::quotient::{Facts, Quotient};
 use super::sign::Sign;
 use super::table::{Atom, Problem};
 use super::{Checked, Law, Refusal, Step};
-use crate::formula::claim::{PRECISION, SCALES};
+use crate::formula::claim::PRECISION;
 use crate::formula::statement::Proposition;
 use crate::number::tree::Op;
 use rustc_hash::FxHashMap;
@@ -36,20 +36,14 @@ impl<'p> State<'p> {
     /// Returns the state at the beginning of a leaf under the assumptions of cases. Powers of two and exponentials are
     /// positive. In a limit, the assumptions must not depend on its variable.
     pub fn new(problem: &'p Problem, cases: &[(Polynomial, Sign)]) -> Checked<Self> {
-        let signs = problem.table.atoms().iter().map(|atom| match atom {
-            Atom::Own(name) if SCALES.contains(name) => Some(Sign::Positive),
-            Atom::Exponential(_) => Some(Sign::Positive),
-            Atom::Size(_) => Some(Sign::NonNegative),
-            _ => None,
-        });
+        let signs = (0..problem.table.atoms().len()).map(|x| problem.table.sign(x));
         let facts = Facts::new(problem.effort.clone());
         let (assumed, divisors, symbols, values) = Default::default();
         let signs = signs.collect();
         let mut state = State { problem, facts, signs, assumed, divisors, symbols, values };
         state.add_fact(Polynomial::constant(2), Sign::Positive);
-        let by = problem.variable();
         for (case, sign) in cases {
-            if by.is_some_and(|by| !case.has_only(|x| !problem.depends(x, by))) {
+            if !case.has_only(|x| !problem.varies(x)) {
                 return Err(Refusal::Limit);
             }
             state.add_fact(case.clone(), *sign);

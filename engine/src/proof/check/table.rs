@@ -1,6 +1,7 @@
 //! The formulas of a goal, and the atoms of its polynomials.
 
 use super::polynomial::MAX_VARIABLES;
+use super::sign::Sign;
 use super::{Checked, Refusal};
 use crate::formula::Hypothesis;
 use crate::formula::claim::{PRECISION, SCALES};
@@ -155,6 +156,16 @@ impl Table {
         self.atoms.iter().position(|known| *known == atom).ok_or(Refusal::Unknown)
     }
 
+    /// Returns the sign that an atom has by its definition.
+    pub fn sign(&self, x: usize) -> Option<Sign> {
+        match self.atoms.get(x)? {
+            Atom::Own(name) if SCALES.contains(name) => Some(Sign::Positive),
+            Atom::Exponential(_) => Some(Sign::Positive),
+            Atom::Size(_) => Some(Sign::NonNegative),
+            _ => None,
+        }
+    }
+
     /// Returns `true` if a variable is between −1 and 1.
     pub fn is_unit(&self, x: usize) -> bool {
         matches!(self.atoms.get(x), Some(Atom::Error(_) | Atom::IntervalParameter(_) | Atom::Factor(_)))
@@ -239,21 +250,17 @@ impl<'a> Problem<'a> {
         self.variable().is_some_and(|by| self.hypotheses[i].value.symbols().contains(by))
     }
 
-    /// Returns `true` if a variable may vary with a symbol.
-    pub fn depends(&self, x: usize, symbol: &str) -> bool {
+    /// Returns `true` if an atom may vary with the variable of the limit.
+    pub fn varies(&self, x: usize) -> bool {
+        let Some(by) = self.variable() else { return false };
         match self.table.atoms.get(x) {
-            Some(Atom::Own(name)) => *name == symbol,
+            Some(Atom::Own(name)) => *name == by,
             Some(Atom::Error(of) | Atom::Size(of) | Atom::Factor(of) | Atom::Exponential(of)) => {
-                self.table.formula(*of).is_ok_and(|tree| tree.symbols().contains(symbol))
+                self.table.formula(*of).is_ok_and(|tree| tree.symbols().contains(by))
             }
-            Some(Atom::IntervalParameter(i)) => self.hypotheses[*i].value.symbols().contains(symbol),
+            Some(Atom::IntervalParameter(i)) => self.mentions_variable(*i),
             None => true,
         }
-    }
-
-    /// Returns `true` if a variable may vary with that of a symbol.
-    pub fn depends_on(&self, x: usize, symbol: usize) -> bool {
-        !matches!(self.table.atoms.get(symbol), Some(Atom::Own(name)) if !self.depends(x, name))
     }
 }
 

@@ -24,6 +24,7 @@ pub(super) struct Script {
 }
 
 /// A problem to be proved in Coq.
+#[derive(Clone)]
 struct Target<'p> {
     lemma: &'p Lemma<'p>,
     problem: &'p Problem<'p>,
@@ -32,7 +33,7 @@ struct Target<'p> {
     /// The tactic that proves its leaves.
     tactic: &'static str,
     /// The variable of a limit, where it is known to be positive.
-    positive: Option<&'static str>,
+    positive: Option<usize>,
 }
 
 impl<'p> Target<'p> {

@@ -269,7 +269,7 @@ impl<'a> Lines<'a> {
                 let (of, to) = (self.quotient(&a, state, names), self.quotient(&b, state, names));
                 let atoms = self.problem.table.atoms().iter().enumerate();
                 let mut exponentials = atoms.filter(|(_, atom)| matches!(atom, Atom::Exponential(_)));
-                let decays = exponentials.any(|(x, _)| a.num.degree(x) > 0 && self.problem.depends(x, by));
+                let decays = exponentials.any(|(x, _)| a.num.degree(x) > 0 && self.problem.varies(x));
                 let decay = if decays { ", as its exponentials decay" } else { "" };
                 vec![format!("it is {of}, which tends to {to} by its degrees in {by}{decay}")]
             }

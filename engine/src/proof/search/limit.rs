@@ -18,7 +18,7 @@ impl Search<'_> {
         let (of, to) = (self.value(of)?, self.value(to)?);
         let x = self.problem().table.variable(Atom::Own(by))?;
         for y in self.exponentials.clone() {
-            if of.num.degree(y) > 0 && self.problem().depends_on(y, x) {
+            if of.num.degree(y) > 0 && self.problem().varies(y) {
                 let exponent = self.proof.state.exponent(y)?;
                 self.show_leading(&exponent)?;
             }

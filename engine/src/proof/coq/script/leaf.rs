@@ -68,14 +68,13 @@ impl<'w> Writer<'w> {
 
     /// Returns the call of a tactic with what is known.
     pub(super) fn call(&self, tactic: &str) -> String {
-        let atoms = self.state.problem.table.atoms().iter().zip(&self.is_known);
-        let kinds = atoms.map(|(atom, is_known)| match atom {
-            _ if !is_known => "Any",
-            Atom::Own(name) if SCALES.contains(name) || self.target.positive == Some(*name) => "Positive",
-            Atom::Own(_) => "Any",
-            Atom::Exponential(_) => "Positive",
-            Atom::Size(_) => "NonNegative",
-            Atom::Error(_) | Atom::Factor(_) | Atom::IntervalParameter(_) => "Unit",
+        let table = &self.target.problem.table;
+        let kinds = self.is_known.iter().enumerate().map(|(x, is_known)| match table.sign(x) {
+            _ if !is_known => "Any".into(),
+            _ if table.is_unit(x) => "Unit".into(),
+            Some(sign) => format!("{sign:?}"),
+            None if self.target.positive == Some(x) => "Positive".into(),
+            None => "Any".into(),
         });
         let kinds = list(kinds.map(|kind| format!("A_Polynomials.{kind}")));
         let kinds = if self.is_known.is_empty() { "(@nil A_Polynomials.kind)" } else { &kinds };

@@ -39,20 +39,15 @@ impl Script {
             steps.iter().try_for_each(|step| state.apply(step))?;
             let of = state.value(target.problem.goal[0])?;
             let x = target.variable(Atom::Own(by))?;
-            let target = Target { positive: Some(by), ..target };
+            let target = Target { positive: Some(x), ..target };
             Limit { target, state, steps: &steps, by, x, of }.write(self)
         })
     }
 }
 
 impl Limit<'_> {
-    /// Returns `true` if an atom varies with the variable of the limit.
-    fn is_variable(&self, y: usize) -> bool {
-        self.target.problem.depends(y, self.by)
-    }
-
     fn depends(&self, of: &Polynomial) -> bool {
-        !of.has_only(|y| !self.is_variable(y))
+        !of.has_only(|y| !self.target.problem.varies(y))
     }
 
     /// Returns a polynomial, with the formulas of exponentials in place of their variables.
@@ -90,7 +85,7 @@ impl Limit<'_> {
     fn write(&self, script: &mut Script) -> Result<()> {
         let (table, mut rest, mut moving) = (&self.target.problem.table, self.of.num.clone(), Vec::new());
         for (y, atom) in table.atoms().iter().enumerate() {
-            let is_moving = matches!(atom, Atom::Exponential(_)) && self.is_variable(y);
+            let is_moving = matches!(atom, Atom::Exponential(_)) && self.target.problem.varies(y);
             if is_moving && rest.degree(y) > 0 {
                 moving.push((y, rest.coefficient(y, 1)));
                 rest = rest.coefficient(y, 0);
@@ -158,8 +153,7 @@ impl Limit<'_> {
                 *label = Some("X".into());
             }
         }
-        let target = Target::new(self.target.lemma, self.target.problem, labels);
-        let target = Target { positive: self.target.positive, ..target };
+        let target = Target { labels, ..self.target.clone() };
         script.names(&target, |_| true)?;
         let mut writer = Writer::new(&target, &[], |_| true)?;
         writer.steps(self.steps)?;
@@ -176,12 +170,9 @@ impl Limit<'_> {
     /// Proves what does not depend on the variable, of which nothing is known here: a certificate that needs its
     /// sign shows none.
     fn at_zero(&self, script: &mut Script, tactic: &'static str) -> Result<()> {
-        script.names(&self.target, |y| !self.is_variable(y))?;
-        let target = Target {
-            tactic,
-            ..Target::new(self.target.lemma, self.target.problem, self.target.labels.clone())
-        };
-        let mut writer = Writer::new(&target, &[], |y| !self.is_variable(y))?;
+        script.names(&self.target, |y| !self.target.problem.varies(y))?;
+        let target = Target { tactic, ..self.target.clone() };
+        let mut writer = Writer::new(&target, &[], |y| !self.target.problem.varies(y))?;
         writer.steps(self.steps)?;
         script.line(&format!("{}.", writer.call(tactic)));
         Ok(())
