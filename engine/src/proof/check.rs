@@ -57,7 +57,7 @@ pub(in crate::proof) use quotient::Quotient;
 pub use sign::Sign;
 pub(in crate::proof) use state::State;
 pub use table::Atom;
-pub(in crate::proof) use table::Problem;
+pub(in crate::proof) use table::{Problem, Table};
 
 use crate::formula::statement::Statement;
 
@@ -118,8 +118,6 @@ pub enum Law {
     AbsoluteValue(usize),
     /// |x| = x if x ≥ 0, and |x| = −x if x ≤ 0, for the formula x with this number.
     Signed(usize),
-    /// |x| = |y| if x = y or x = −y, for the formulas x and y with these numbers.
-    SameSize([usize; 2]),
     /// fl(a) ≥ fl(b) if a ≥ b, for the formulas fl(a) and fl(b) with these numbers.
     Order([usize; 2]),
 }

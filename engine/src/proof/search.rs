@@ -36,7 +36,7 @@ mod tests;
 
 pub use self::error::{ProofError, Quantity};
 
-use super::check::{self, Node, Polynomial, Premise, Problem, Proof, Refusal, Sign, check};
+use super::check::{self, Node, Polynomial, Premise, Problem, Proof, Refusal, Sign, Table, check};
 use super::effort::MAX_EFFORT;
 use crate::formula::statement::{Proposition, Statement};
 use crate::formula::{Hypothesis, Relation};
@@ -243,14 +243,14 @@ impl<'a> Attempt<'a> {
 
     /// Returns the pairs of rounded formulas whose order the goal rests on.
     fn orders(&self) -> Vec<[usize; 2]> {
-        let mut pairs = Vec::new();
-        if let Proposition::Sign(Relation::NonNegative, of) = self.problem.proposition
-            && let Some((a, b)) = rounded_difference(of)
+        let (table, mut pairs) = (&self.problem.table, Vec::new());
+        if let Proposition::Sign(Relation::NonNegative, _) = self.problem.proposition
+            && let Ok(Op::Sub(a, b)) = table.op(self.problem.goal[0])
+            && let (Ok(Op::Rounded(_)), Ok(Op::Rounded(_))) = (table.op(a), table.op(b))
         {
-            collect_orders(a, b, &mut pairs);
+            collect_orders(table, a, b, &mut pairs);
         }
-        let table = &self.problem.table;
-        pairs.into_iter().filter_map(|(a, b)| Some([table.find(a).ok()?, table.find(b).ok()?])).collect()
+        pairs
     }
 }
 
@@ -259,35 +259,28 @@ fn case(decision: &Decision) -> Option<(Polynomial, Sign)> {
     if let Decision::Case { on, sign, .. } = decision { Some((on.clone(), *sign)) } else { None }
 }
 
-/// Returns the operands of a difference if both are rounded.
-fn rounded_difference(of: &Tree) -> Option<(&Tree, &Tree)> {
-    let Op::Sub(a, b) = of.op() else { return None };
-    [a, b].into_iter().all(|tree| matches!(tree.op(), Op::Rounded(_))).then_some((a, b))
-}
-
 /// Collects pairs of formulas inside two others, operation by operation, whose roundings have an order.
-fn collect_orders<'t>(a: &'t Tree, b: &'t Tree, all: &mut Vec<(&'t Tree, &'t Tree)>) {
+fn collect_orders(table: &Table, a: usize, b: usize, all: &mut Vec<[usize; 2]>) {
     use Op::*;
-    if a == b {
-        return;
-    }
-    match (a.op(), b.op()) {
+    let (Ok(first), Ok(second)) = (table.op(a), table.op(b)) else { return };
+    match (first, second) {
+        _ if a == b => {}
         (Rounded(c), Rounded(d)) => {
-            collect_orders(c, d, all);
-            all.push((a, b));
+            collect_orders(table, c, d, all);
+            all.push([a, b]);
         }
-        (PositivePart(a), PositivePart(b)) => collect_orders(a, b, all),
-        (Neg(a), Neg(b)) => collect_orders(b, a, all),
+        (PositivePart(a), PositivePart(b)) => collect_orders(table, a, b, all),
+        (Neg(a), Neg(b)) => collect_orders(table, b, a, all),
         (Add(a, c), Add(b, d)) | (Min(a, c), Min(b, d)) => {
-            collect_orders(a, b, all);
-            collect_orders(c, d, all);
+            collect_orders(table, a, b, all);
+            collect_orders(table, c, d, all);
         }
         (Sub(a, c), Sub(b, d)) => {
-            collect_orders(a, b, all);
-            collect_orders(d, c, all);
+            collect_orders(table, a, b, all);
+            collect_orders(table, d, c, all);
         }
         (Mul(f, a), Mul(g, b)) | (Mul(a, f), Mul(b, g)) | (Div(a, f), Div(b, g)) if f == g => {
-            collect_orders(a, b, all);
+            collect_orders(table, a, b, all);
         }
         _ => {}
     }

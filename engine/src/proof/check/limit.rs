@@ -25,24 +25,17 @@ use crate::formula::Relation;
 use std::cmp::Ordering;
 
 impl State<'_> {
-    /// Returns `true` if a formula tends to another one as a symbol tends to infinity.
-    pub fn has_limit(&mut self, of: usize, by: &'static str, to: usize) -> Checked<bool> {
-        let (of, to) = (self.value(of)?, self.value(to)?);
-        let problem = self.problem;
-        let x = problem.table.variable(Atom::Own(by))?;
-        let mut later = (0..problem.hypotheses.len()).filter(|i| problem.mentions_variable(*i));
-        if !later.all(|i| self.assumed.contains(&i)) {
-            return Err(Refusal::Limit);
-        }
-        let found = self.limit_of(&of, x)?;
-        let difference = self.facts.sum(&found, -1, &to)?;
-        Ok(self.facts.have(&difference, Sign::Zero))
+    /// Returns the variable of the limit.
+    fn variable_of_limit(&self) -> Checked<usize> {
+        let by = self.problem.variable().ok_or(Refusal::Limit)?;
+        self.problem.table.variable(Atom::Own(by))
     }
 
-    /// Returns by how much the degree of the numerator in the variable exceeds that of the denominator, and
-    /// the leading coefficients of the numerator and of the factors of the denominator. They must not depend
+    /// Returns by how much the degree of the numerator in the variable of the limit exceeds that of the denominator,
+    /// and the leading coefficients of the numerator and of the factors of the denominator. They must not depend
     /// on the variable in any other way.
-    pub fn leading(&self, of: &Quotient, x: usize) -> Checked<(i32, Vec<Polynomial>)> {
+    pub fn leading(&self, of: &Quotient) -> Checked<(i32, Vec<Polynomial>)> {
+        let x = self.variable_of_limit()?;
         let (mut excess, mut coefficients) = (0, Vec::with_capacity(1 + of.den.len()));
         let den = of.den.iter().map(|i| Ok(&self.facts.get(*i)?.0));
         for part in [Ok(&of.num)].into_iter().chain(den) {
@@ -61,27 +54,30 @@ impl State<'_> {
         all.iter().map(|of| self.facts.strict(of).ok_or(Refusal::Limit)).collect()
     }
 
-    /// Returns the strict sign of a product.
-    fn sign_of_leading(&self, coefficients: &[Polynomial]) -> Checked<Sign> {
-        self.facts.sign_of_product(&self.strict(coefficients)?)
+    /// Returns by how much the degree of a quotient in the variable exceeds 0, and the strict sign of its product of
+    /// leading coefficients.
+    fn excess(&self, of: &Quotient) -> Checked<(i32, Sign)> {
+        let (excess, coefficients) = self.leading(of)?;
+        Ok((excess, self.facts.sign_of_product(&self.strict(&coefficients)?)?))
     }
 
     /// Checks that a hypothesis that mentions the variable of the limit holds for all sufficiently large values.
-    pub fn holds_later(&mut self, i: usize, by: &'static str) -> Checked<()> {
-        let problem = self.problem;
-        if problem.hypotheses[i].interval().is_some() || problem.hypotheses[i].relation == Relation::Zero {
-            return Err(Refusal::Limit);
-        }
-        let value = self.value(problem.values[i])?;
-        let (_, coefficients) = self.leading(&value, problem.table.variable(Atom::Own(by))?)?;
-        if self.sign_of_leading(&coefficients)? == Sign::Positive { Ok(()) } else { Err(Refusal::Limit) }
+    pub fn holds_later(&mut self, i: usize) -> Checked<()> {
+        let hypothesis = self.problem.hypotheses[i];
+        let value = self.value(self.problem.values[i])?;
+        let is_inequality = hypothesis.interval().is_none() && hypothesis.relation != Relation::Zero;
+        if is_inequality && self.excess(&value)?.1 == Sign::Positive { Ok(()) } else { Err(Refusal::Limit) }
     }
 
     /// Returns the limit of a quotient: 0 if the denominator has the higher degree, and the quotient of the
     /// leading coefficients if the degrees are equal.
-    pub fn limit_of(&mut self, of: &Quotient, x: usize) -> Checked<Quotient> {
-        let num = self.without_vanishing_terms(&of.num, x)?;
-        let (excess, mut coefficients) = self.leading(&Quotient { num, den: of.den.clone() }, x)?;
+    pub fn limit_of(&mut self, of: &Quotient) -> Checked<Quotient> {
+        let mut later = (0..self.problem.hypotheses.len()).filter(|i| self.problem.mentions_variable(*i));
+        if !later.all(|i| self.assumed.contains(&i)) {
+            return Err(Refusal::Limit);
+        }
+        let num = self.without_vanishing_terms(&of.num)?;
+        let (excess, mut coefficients) = self.leading(&Quotient { num, den: of.den.clone() })?;
         let den = self.strict(&coefficients.split_off(1))?;
         match excess.cmp(&0) {
             Ordering::Less => Ok(Polynomial::zero().into()),
@@ -103,16 +99,17 @@ impl State<'_> {
     /// - an absolute value that depends on x: it is refused, because it may grow faster than any power;
     /// - its factor, or the error or parameter of a quantity that depends on x: they are between −1 and 1, but
     ///   are refused like the absolute value.
-    pub fn without_vanishing_terms(&mut self, of: &Polynomial, x: usize) -> Checked<Polynomial> {
-        let (mut rest, problem) = (of.clone(), self.problem);
-        let varies = |y: &usize| *y != x && of.degree(*y) > 0 && problem.varies(*y);
-        for y in (0..problem.table.atoms().len()).filter(varies) {
-            let exponent = self.exponent(y).map_err(|_| Refusal::Limit)?;
-            let (excess, coefficients) = self.leading(&exponent, x)?;
-            if excess <= 0 || self.sign_of_leading(&coefficients)? != Sign::Negative {
-                return Err(Refusal::Limit);
+    pub fn without_vanishing_terms(&mut self, of: &Polynomial) -> Checked<Polynomial> {
+        let (mut rest, x) = (of.clone(), self.variable_of_limit()?);
+        for y in (0..self.signs.len()).filter(|y| *y != x && of.degree(*y) > 0) {
+            if self.problem.varies(y) {
+                let exponent = self.exponent(y).map_err(|_| Refusal::Limit)?;
+                let (excess, sign) = self.excess(&exponent)?;
+                if excess <= 0 || sign != Sign::Negative {
+                    return Err(Refusal::Limit);
+                }
+                rest = rest.coefficient(y, 0);
             }
-            rest = rest.coefficient(y, 0);
         }
         Ok(rest)
     }

@@ -15,9 +15,11 @@ pub enum Sign {
     NonNegative,
     /// x > 0
     Positive,
+    /// x may be any number.
+    Any,
 }
 
-use Sign::{Negative, NonNegative, NonPositive, Positive, Zero};
+use Sign::{Any, Negative, NonNegative, NonPositive, Positive, Zero};
 
 impl From<Relation> for Sign {
     fn from(relation: Relation) -> Self {
@@ -40,9 +42,9 @@ impl Sign {
         match self {
             Negative => Positive,
             NonPositive => NonNegative,
-            Zero => Zero,
             NonNegative => NonPositive,
             Positive => Negative,
+            Zero | Any => self,
         }
     }
 
@@ -50,30 +52,32 @@ impl Sign {
     pub fn times(self, other: Self) -> Self {
         match (self, other) {
             (Zero, _) | (_, Zero) => Zero,
+            (Any, _) | (_, Any) => Any,
             (Positive, sign) | (sign, Positive) => sign,
             (Negative, sign) | (sign, Negative) => sign.negated(),
-            (NonNegative, NonNegative) | (NonPositive, NonPositive) => NonNegative,
-            (NonNegative, NonPositive) | (NonPositive, NonNegative) => NonPositive,
+            (sign, _) if sign == other => NonNegative,
+            _ => NonPositive,
         }
     }
 
-    /// Returns the sign of x + y if the signs of x and y determine it.
-    pub fn plus(self, other: Self) -> Option<Self> {
+    /// Returns the sign of x + y.
+    pub fn plus(self, other: Self) -> Self {
         match (self, other) {
-            (Zero, sign) | (sign, Zero) => Some(sign),
-            (Positive, Positive | NonNegative) | (NonNegative, Positive) => Some(Positive),
-            (Negative, Negative | NonPositive) | (NonPositive, Negative) => Some(Negative),
-            (NonNegative, NonNegative) => Some(NonNegative),
-            (NonPositive, NonPositive) => Some(NonPositive),
-            (Positive | NonNegative, Negative | NonPositive)
-            | (Negative | NonPositive, Positive | NonNegative) => None,
+            (Zero, sign) | (sign, Zero) => sign,
+            (Any, _) | (_, Any) => Any,
+            _ if self.implies(other) => self,
+            _ if other.implies(self) => other,
+            _ => Any,
         }
     }
 
     /// Returns `true` if every number with the sign `self` also has the sign `other`.
     pub fn implies(self, other: Self) -> bool {
         self == other
-            || matches!((self, other), (Positive | Zero, NonNegative) | (Negative | Zero, NonPositive))
+            || matches!(
+                (self, other),
+                (Positive | Zero, NonNegative) | (Negative | Zero, NonPositive) | (_, Any)
+            )
     }
 }
 
@@ -83,7 +87,8 @@ mod tests {
 
     #[test]
     fn signs_of_sums_and_products_are_those_of_numbers() {
-        const SIGNS: [Sign; 5] = [Negative, NonPositive, Zero, NonNegative, Positive];
+        // The first ones imply the others.
+        const SIGNS: [Sign; 6] = [Negative, Zero, Positive, NonPositive, NonNegative, Any];
         // −1, 0 and 1 represent all numbers; the sums include multiples, so that either sign can prevail.
         let has = |sign: Sign, x: i32| match sign {
             Negative => x < 0,
@@ -91,20 +96,14 @@ mod tests {
             Zero => x == 0,
             NonNegative => x >= 0,
             Positive => x > 0,
+            Any => true,
         };
-        let all = |values: &[i32], sign: Sign| values.iter().all(|x| has(sign, *x));
-        let strongest = |values: Vec<i32>| {
-            let [strict, weak] = [[Negative, Zero, Positive].as_slice(), &[NonPositive, NonNegative]];
-            strict.iter().chain(weak).copied().find(|sign| all(&values, *sign))
-        };
+        let strongest =
+            |values: Vec<i32>| SIGNS.into_iter().find(|sign| values.iter().all(|x| has(*sign, *x))).unwrap();
         for (s, t) in SIGNS.iter().flat_map(|s| SIGNS.map(|t| (*s, t))) {
             let of = |sign| (-1..=1).filter(move |x| has(sign, *x));
             let pairs: Vec<_> = of(s).flat_map(|x| of(t).map(move |y| (x, y))).collect();
-            assert_eq!(
-                Some(s.times(t)),
-                strongest(pairs.iter().map(|(x, y)| x * y).collect()),
-                "{s:?} {t:?}"
-            );
+            assert_eq!(s.times(t), strongest(pairs.iter().map(|(x, y)| x * y).collect()), "{s:?} {t:?}");
             let sums = pairs.iter().flat_map(|(x, y)| [x + y, 2 * x + y, x + 2 * y]);
             assert_eq!(s.plus(t), strongest(sums.collect()), "{s:?} {t:?}");
             assert_eq!(s.implies(t), of(s).all(|x| has(t, x)), "{s:?} {t:?}");

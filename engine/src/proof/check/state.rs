@@ -5,6 +5,7 @@ use super::quotient::{Facts, Quotient};
 use super::sign::Sign;
 use super::table::{Atom, Problem};
 use super::{Checked, Law, Refusal, Step};
+use crate::formula::Relation;
 use crate::formula::claim::PRECISION;
 use crate::formula::statement::Proposition;
 use crate::number::tree::Op;
@@ -21,7 +22,7 @@ pub struct State<'p> {
     /// The quantities of known sign.
     pub facts: Facts,
     /// The known signs of variables.
-    pub signs: Vec<Option<Sign>>,
+    pub signs: Vec<Sign>,
     /// The hypotheses that were assumed.
     pub assumed: Vec<usize>,
     /// The products of facts that are divisors, with their factors.
@@ -78,9 +79,9 @@ impl<'p> State<'p> {
 
     fn add_fact(&mut self, of: Polynomial, sign: Sign) {
         if let Some(known) = of.as_variable().and_then(|x| self.signs.get_mut(x))
-            && !known.is_some_and(|known| known.implies(sign))
+            && !known.implies(sign)
         {
-            *known = Some(sign);
+            *known = sign;
         }
         self.facts.add(of, sign);
     }
@@ -96,15 +97,15 @@ impl<'p> State<'p> {
     fn assume(&mut self, i: usize) -> Checked<()> {
         let problem = self.problem;
         let hypothesis = *problem.hypotheses.get(i).ok_or(Refusal::Unknown)?;
-        if let Some(by) = problem.variable().filter(|_| problem.mentions_variable(i)) {
-            self.holds_later(i, by)?;
+        if problem.mentions_variable(i) {
+            self.holds_later(i)?;
         }
         self.assumed.push(i);
-        let Some((x, lower, upper)) = hypothesis.interval() else {
+        let Some((x, ends)) = problem.intervals[i] else {
             let value = self.value(problem.values[i])?;
             return self.add_quotient(value, hypothesis.relation.into());
         };
-        let [lower, upper] = [lower, upper].map(|end| self.value(problem.table.find(end)?));
+        let [lower, upper] = ends.map(|end| self.value(end));
         let (lower, upper) = (lower?, upper?);
         let half = Quotient { num: Polynomial::constant(1), den: vec![TWO] };
         let effort = &self.facts.effort;
@@ -154,13 +155,6 @@ impl<'p> State<'p> {
                 let n = if self.premise(&value, [NonNegative, NonPositive])? == NonNegative { -1 } else { 1 };
                 (self.facts.sum(&size.into(), n, &value)?, Zero)
             }
-            Law::SameSize([a, b]) => {
-                let (x, y) = (self.value(a)?, self.value(b)?);
-                let [difference, sum] = [-1, 1].map(|n| self.facts.sum(&x, n, &y));
-                self.premise(&difference?, [Zero]).or(self.premise(&sum?, [Zero]))?;
-                let [size, other] = [a, b].map(|of| self.variable(Atom::Size(of)));
-                (self.facts.sum(&size?.into(), -1, &other?.into())?, Zero)
-            }
             Law::Order([a, b]) => {
                 let table = &self.problem.table;
                 let (Op::Rounded(x), Op::Rounded(y)) = (table.op(a)?, table.op(b)?) else {
@@ -208,12 +202,12 @@ impl<'p> State<'p> {
         if let Some(value) = self.values.get(&formula) {
             return Ok(value.clone());
         }
-        let value = self.value_of_op(formula, self.problem.table.op(formula)?)?;
+        let value = self.value_of_op(self.problem.table.op(formula)?)?;
         self.values.insert(formula, value.clone());
         Ok(value)
     }
 
-    fn value_of_op(&mut self, formula: usize, op: Op<usize>) -> Checked<Quotient> {
+    fn value_of_op(&mut self, op: Op<usize>) -> Checked<Quotient> {
         use Op::*;
         Ok(match op {
             Symbol(name) => match self.symbols.get(name) {
@@ -256,7 +250,7 @@ impl<'p> State<'p> {
                 let effort = &self.facts.effort;
                 let one = Polynomial::constant(1);
                 let largest = self.variable(Atom::Own(PRECISION))?.plus_multiple(1, &one, effort)?;
-                let error = self.variable(Atom::Error(self.problem.table.rounding(formula)?.1))?;
+                let error = self.variable(Atom::Error(self.problem.table.rounding(a).1))?;
                 let num = largest.plus_multiple(1, &error, effort)?;
                 let inverse = self.inverse(&largest.into())?;
                 value.times(&num.into(), effort)?.times(&inverse, effort)?
@@ -287,30 +281,25 @@ impl<'p> State<'p> {
         }
     }
 
+    /// Returns the quantities whose signs are to be proved.
+    pub fn goals(&mut self) -> Checked<Vec<(Quotient, Sign)>> {
+        use Proposition::*;
+        let values = self.problem.goal.iter().map(|of| self.value(*of)).collect::<Checked<Vec<_>>>()?;
+        let (relation, sums) = match (self.problem.proposition, &values[..]) {
+            (Sign(relation, _), [of, ..]) => (*relation, vec![(of.clone(), 0, of)]),
+            (Within(..), [of, bound]) => {
+                (Relation::NonNegative, [-1, 1].map(|n| (bound.clone(), n, of)).into())
+            }
+            (Limit(..), [of, to]) => (Relation::Zero, vec![(self.limit_of(of)?, -1, to)]),
+            (Equal(..), [a, b]) | (Derivative(..), [_, b, a]) => (Relation::Zero, vec![(a.clone(), -1, b)]),
+            _ => return Err(Refusal::Goal),
+        };
+        let sums = sums.iter().map(|(a, n, b)| Ok((self.facts.sum(a, *n, b)?, relation.into())));
+        sums.collect()
+    }
+
     /// Returns `true` if the facts state what is to be proved.
     pub fn proves_goal(&mut self) -> Checked<bool> {
-        Ok(match (self.problem.proposition, &self.problem.goal[..]) {
-            (Proposition::Limit(_, by, _), [of, to]) => return self.has_limit(*of, by, *to),
-            (Proposition::Equal(..), [a, b]) => {
-                let difference = self.difference(*a, *b)?;
-                self.facts.have(&difference, Sign::Zero)
-            }
-            (Proposition::Sign(relation, _), [of, ..]) => {
-                let of = self.value(*of)?;
-                self.facts.have(&of, (*relation).into())
-            }
-            (Proposition::Within(..), [of, bound]) => {
-                let (of, bound) = (self.value(*of)?, self.value(*bound)?);
-                let ends = [-1, 1].map(|n| self.facts.sum(&bound, n, &of));
-                let [above, below] = ends;
-                self.facts.have(&above?, Sign::NonNegative) && self.facts.have(&below?, Sign::NonNegative)
-            }
-            (Proposition::Derivative(..), [of, is, derivative]) => {
-                self.value(*of)?;
-                let difference = self.difference(*derivative, *is)?;
-                self.facts.have(&difference, Sign::Zero)
-            }
-            _ => false,
-        })
+        Ok(self.goals()?.iter().all(|(of, sign)| self.facts.have(of, *sign)))
     }
 }

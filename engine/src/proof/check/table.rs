@@ -45,8 +45,8 @@ pub struct Table {
     formulas: Vec<(Op<usize>, Tree)>,
     numbers: FxHashMap<Op<usize>, usize>,
     atoms: Vec<Atom>,
-    /// For each rounded formula, the powers of scales by which it is a multiple of another one, whose error it has.
-    errors: FxHashMap<usize, Scaled>,
+    /// The formulas as multiples of those without scales.
+    scaled: Vec<Option<Scaled>>,
 }
 
 /// A proposition to be proved from hypotheses.
@@ -61,6 +61,8 @@ pub struct Problem<'a> {
     pub hypotheses: Vec<&'a Hypothesis>,
     /// The numbers of the values of the hypotheses.
     pub values: Vec<usize>,
+    /// The symbols of the hypotheses that are intervals, and the numbers of the bounds.
+    pub intervals: Vec<Option<(&'static str, [usize; 2])>>,
     /// The numbers of the formulas of the proposition, and of the derivative that it is about.
     pub goal: Vec<usize>,
     /// The formulas and atoms.
@@ -70,19 +72,14 @@ pub struct Problem<'a> {
 }
 
 impl Table {
-    /// Numbers the operations of a formula, operands first, and returns the number of the last one.
-    fn numbered(tree: &Tree, mut number: impl FnMut(Op<usize>, &Tree) -> Checked<usize>) -> Checked<usize> {
-        let (mut known, mut last) = (FxHashMap::default(), Err(Refusal::Unknown));
+    /// Adds a formula, operands first, and returns its number.
+    fn add(&mut self, tree: &Tree) -> usize {
+        let (mut numbers, mut last) = (FxHashMap::default(), 0);
         for part in tree.distinct() {
-            last = Ok(number(part.op().map(|operand| known[&operand.address()]), part)?);
-            known.insert(part.address(), last?);
+            last = self.insert(part.op().map(|operand| numbers[&operand.address()]), part.clone());
+            numbers.insert(part.address(), last);
         }
         last
-    }
-
-    /// Adds a formula and returns its number.
-    fn add(&mut self, tree: &Tree) -> Checked<usize> {
-        Table::numbered(tree, |op, part| Ok(self.insert(op, part.clone())))
     }
 
     /// Adds a formula with this last operation and returns its number.
@@ -96,13 +93,13 @@ impl Table {
     }
 
     /// Returns the powers of scales by which a formula is a multiple of one without scales, and the number of that one;
-    /// `None` if it is not such a multiple. `known` are those of its operands, and `tree` is any formula.
+    /// `None` if it is not such a multiple. `tree` is any formula.
     ///
     /// Scales are positive, so they are factors of minima and positive parts; and powers of two, so they are factors of
     /// rounded formulas. The order of two summands or factors does not matter.
-    fn without_scales(&mut self, op: Op<usize>, tree: &Tree, known: &[Option<Scaled>]) -> Option<Scaled> {
+    fn without_scales(&mut self, op: Op<usize>, tree: &Tree) -> Option<Scaled> {
         use Op::*;
-        let parts = op.try_map(|operand| known[*operand])?;
+        let parts = op.try_map(|operand| self.scaled[*operand])?;
         let powers = match parts.map(|(powers, _)| *powers) {
             Symbol(name) => SCALES.map(|scale| i32::from(name == scale)),
             Int(_) => [0; 3],
@@ -124,11 +121,6 @@ impl Table {
         };
         let tree = tree.with_op(unscaled.map(|operand| self.formulas[*operand].1.clone()));
         Some((powers, self.insert(unscaled, tree)))
-    }
-
-    /// Returns the number of a formula.
-    pub fn find(&self, tree: &Tree) -> Checked<usize> {
-        Table::numbered(tree, |op, _| self.number(&op))
     }
 
     /// Returns the number of the formula with this last operation.
@@ -157,12 +149,12 @@ impl Table {
     }
 
     /// Returns the sign that an atom has by its definition.
-    pub fn sign(&self, x: usize) -> Option<Sign> {
-        match self.atoms.get(x)? {
-            Atom::Own(name) if SCALES.contains(name) => Some(Sign::Positive),
-            Atom::Exponential(_) => Some(Sign::Positive),
-            Atom::Size(_) => Some(Sign::NonNegative),
-            _ => None,
+    pub fn sign(&self, x: usize) -> Sign {
+        match self.atoms.get(x) {
+            Some(Atom::Own(name)) if SCALES.contains(name) => Sign::Positive,
+            Some(Atom::Exponential(_)) => Sign::Positive,
+            Some(Atom::Size(_)) => Sign::NonNegative,
+            _ => Sign::Any,
         }
     }
 
@@ -171,9 +163,10 @@ impl Table {
         matches!(self.atoms.get(x), Some(Atom::Error(_) | Atom::IntervalParameter(_) | Atom::Factor(_)))
     }
 
-    /// Returns the powers of scales by which a rounded formula is a multiple of one whose error it has, and that one.
-    pub fn rounding(&self, rounded: usize) -> Checked<Scaled> {
-        self.errors.get(&rounded).copied().ok_or(Refusal::Unknown)
+    /// Returns the powers of scales by which a formula is a multiple of one that is rounded with the same error, and
+    /// that one.
+    pub fn rounding(&self, of: usize) -> Scaled {
+        self.scaled.get(of).copied().flatten().unwrap_or(([0; 3], of))
     }
 
     fn add_atom(&mut self, atom: Atom) {
@@ -183,31 +176,27 @@ impl Table {
     }
 
     /// Adds e to the power of a formula, and its reciprocal.
-    fn add_exponentials(&mut self, exponent: usize) -> Checked<()> {
-        let reciprocal = -self.formula(exponent)?;
-        let reciprocal = self.add(&reciprocal)?;
+    fn add_exponentials(&mut self, exponent: usize) {
+        let reciprocal = self.insert(Op::Neg(exponent), -&self.formulas[exponent].1);
         self.add_atom(Atom::Exponential(exponent));
         self.add_atom(Atom::Exponential(reciprocal));
-        Ok(())
     }
 
     fn add_atoms(&mut self, hypotheses: &[&Hypothesis]) -> Checked<()> {
         let rounds = self.formulas.iter().any(|(op, _)| matches!(op, Op::Rounded(_)));
-        let mut scaled = Vec::with_capacity(self.formulas.len());
-        for (number, (op, tree)) in self.formulas.clone().into_iter().enumerate() {
-            scaled.push(if rounds { self.without_scales(op, &tree, &scaled) } else { None });
+        for (op, tree) in self.formulas.clone() {
+            let scaled = if rounds { self.without_scales(op, &tree) } else { None };
+            self.scaled.push(scaled);
             match op {
                 Op::Symbol(name) => self.add_atom(Atom::Own(name)),
-                Op::Exp(exponent) => self.add_exponentials(exponent)?,
+                Op::Exp(exponent) => self.add_exponentials(exponent),
                 Op::Min(negated, of) if self.op(negated)? == Op::Neg(of) => {
                     self.add_atom(Atom::Size(of));
                     self.add_atom(Atom::Factor(of));
                 }
                 Op::Rounded(of) => {
-                    let error = scaled[of].unwrap_or(([0; 3], of));
-                    self.errors.insert(number, error);
                     self.add_atom(Atom::Own(PRECISION));
-                    self.add_atom(Atom::Error(error.1));
+                    self.add_atom(Atom::Error(self.rounding(of).1));
                 }
                 _ => {}
             }
@@ -230,11 +219,14 @@ impl<'a> Problem<'a> {
             _ => None,
         };
         let mut table = Table::default();
-        let values = hypotheses.iter().map(|h| table.add(&h.value)).collect::<Checked<_>>()?;
-        let goal = proposition.trees().into_iter().chain(&derivative);
-        let goal = goal.map(|tree| table.add(tree)).collect::<Checked<_>>()?;
+        let values = hypotheses.iter().map(|h| table.add(&h.value)).collect();
+        let intervals = hypotheses.iter().map(|h| h.interval());
+        let intervals =
+            intervals.map(|of| of.map(|(x, lower, upper)| (x, [lower, upper].map(|end| table.add(end)))));
+        let intervals = intervals.collect();
+        let goal = proposition.trees().into_iter().chain(&derivative).map(|tree| table.add(tree)).collect();
         table.add_atoms(&hypotheses)?;
-        Ok(Problem { proposition, hypotheses, values, goal, table, effort: Effort::default() })
+        Ok(Problem { proposition, hypotheses, values, intervals, goal, table, effort: Effort::default() })
     }
 
     /// Returns the symbol that tends to infinity in a limit.

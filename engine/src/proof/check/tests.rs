@@ -111,7 +111,7 @@ impl<'a> Page<'a> {
 
     /// Returns the number of a formula of the goal.
     fn formula(&self, of: &Tree) -> usize {
-        self.0.table.find(of).unwrap()
+        (0..).find(|i| self.0.table.formula(*i).unwrap() == of).unwrap()
     }
 }
 

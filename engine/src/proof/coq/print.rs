@@ -203,8 +203,8 @@ mod tests {
     #[test]
     fn names_of_functions_have_no_other_meaning() {
         let of = |path| function(&Formula::new(path, "", &["x"], Tree::symbol("x")));
-        let names = ["lens::focus", "fix", "same::size", "Shown", "s1"];
-        assert_eq!(names.map(of), ["lens_focus", "fix_", "same_size_", "Shown_", "s1_"]);
+        let names = ["lens::focus", "fix", "own::size", "Shown", "s1"];
+        assert_eq!(names.map(of), ["lens_focus", "fix_", "own_size_", "Shown_", "s1_"]);
     }
 
     #[test]

@@ -149,12 +149,6 @@ Proof. intros S P. rewrite Rmin_left in S; lra. Qed.
 Lemma negated_size x s : Rmin (- x) x = - s -> x <= 0 -> s + x = 0.
 Proof. intros S P. rewrite Rmin_right in S; lra. Qed.
 
-Lemma same_size x y s r : Rmin (- x) x = - s -> Rmin (- y) y = - r -> x - y = 0 -> s - r = 0.
-Proof. intros S R E. replace y with x in R by lra. lra. Qed.
-
-Lemma opposite_size x y s r : Rmin (- x) x = - s -> Rmin (- y) y = - r -> x + y = 0 -> s - r = 0.
-Proof. intros S R E. replace y with (- x) in R by lra. rewrite Ropp_involutive, Rmin_comm in R. lra. Qed.
-
 Lemma exponential a : exists y, 0 < y /\ exp a = y.
 Proof. exists (exp a). split; [apply exp_pos | reflexivity]. Qed.
 

@@ -211,7 +211,6 @@ impl<'a> Lines<'a> {
                 format!(", as {0} = {t} |{0}| with |{t}| ≤ 1", self.formula(*of))
             }
             Step::Law(Law::Signed(_)) => ", as |x| is x or −x".to_string(),
-            Step::Law(Law::SameSize(_)) => ", as |x| = |−x|".to_string(),
             Step::Assume(i) => {
                 format!(" by {}", self.printer.registry.format_hypothesis(self.problem.hypotheses[*i]))
             }

@@ -187,6 +187,7 @@ pub(super) fn sign_text(sign: Sign) -> &'static str {
         Sign::Zero => "= 0",
         Sign::NonNegative => "≥ 0",
         Sign::Positive => "> 0",
+        Sign::Any => "of any sign",
     }
 }
 

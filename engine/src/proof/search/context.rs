@@ -3,7 +3,7 @@
 use super::algebra::{FIRST_SLACK, Monomial, Poly, Ratio, UNKNOWN};
 use super::assumption::{Assumption, AssumptionUse, Multiple, SignedRatio};
 use super::choice;
-use super::rules::SignEnv;
+use super::rules::{SignEnv, determined};
 use super::symbol::Symbol;
 use crate::formula::Hypothesis;
 use crate::formula::claim::{PRECISION, SCALES};
@@ -159,7 +159,7 @@ impl Context {
     /// Returns the sign of v by those of m h and of v − m h.
     fn sign_by_multiple(&self, value: &Ratio, (h, sign): (&Ratio, Sign), m: Ratio) -> Option<SignedRatio> {
         let (rest, factor) = (self.sign(value - &m * h)?, self.sign(m)?);
-        let sum_sign = factor.sign().times(sign).plus(rest.sign())?;
+        let sum_sign = determined(factor.sign().times(sign).plus(rest.sign()))?;
         let subtracted = Some(Multiple { factor, of: h.clone(), sum_sign }.into());
         Some(SignedRatio { subtracted, ..rest })
     }
@@ -188,6 +188,7 @@ impl Context {
                     return self.retain(hypothesis, value, sign);
                 }
             }
+            Sign::Any => AssumptionUse::Unused,
             Sign::Zero => self
                 .pivot(hypothesis, &value, &Poly::zero(), &self.signs)
                 .map_or(AssumptionUse::Unused, |(pivot, by)| AssumptionUse::Pivot(pivot, by, None)),

@@ -104,10 +104,8 @@ impl<'a> Search<'a> {
     pub fn assume(&mut self, i: usize) -> Result<()> {
         let problem = self.problem();
         let hypothesis = problem.hypotheses[i];
-        if let Some((_, lower, upper)) = hypothesis.interval() {
-            for end in [lower, upper] {
-                self.value(problem.table.find(end)?)?;
-            }
+        if let Some((_, ends)) = problem.intervals[i] {
+            ends.into_iter().try_for_each(|end| self.value(end).map(|_| ()))?;
             self.proof.add(Step::Assume(i))?;
             return Ok(());
         }
@@ -143,20 +141,14 @@ impl<'a> Search<'a> {
 
     /// Shows the goal.
     pub fn goal(&mut self) -> Result<()> {
-        match (self.problem().proposition, &self.problem().goal[..]) {
-            (Proposition::Limit(_, by, _), [of, to]) => self.limit(*of, by, *to)?,
-            (Proposition::Equal(..), [a, b]) => self.show_sum(&[(1, *a), (-1, *b)], Use::Goal)?,
-            (Proposition::Sign(..), [of, ..]) => self.show_sum(&[(1, *of)], Use::Goal)?,
-            (Proposition::Within(..), [of, bound]) => {
-                self.show_sum(&[(1, *bound), (-1, *of)], Use::Goal)?;
-                self.show_sum(&[(1, *bound), (1, *of)], Use::Goal)?;
-            }
-            (Proposition::Derivative(..), [of, is, derivative]) => {
-                self.value(*of)?;
-                self.show_sum(&[(1, *derivative), (-1, *is)], Use::Goal)?;
-            }
-            _ => {}
+        let problem = self.problem();
+        problem.goal.iter().try_for_each(|of| self.value(*of).map(|_| ()))?;
+        if problem.variable().is_some() {
+            let of = self.value(problem.goal[0])?;
+            self.limit(&of)?;
         }
+        let goals = self.proof.state.goals()?;
+        goals.iter().try_for_each(|(of, _)| self.show(of, Use::Goal))?;
         if self.proof.state.proves_goal()? { Ok(()) } else { Err(Refusal::Goal.into()) }
     }
 
@@ -375,29 +367,18 @@ impl<'a> Search<'a> {
         let quotient = self.proof.state.value(of)?;
         let value = self.known.ratio(&quotient, &self.proof.state);
         let twice: Ratio = self.known.context.reduce(&(&value + &value));
-        let law = match self.known.context.size(&value) {
-            Some(known) if known == size => Law::AbsoluteValue(of),
-            Some(known) => match self.problem().table.atoms().get(known) {
-                Some(Atom::Size(other)) => Law::SameSize([of, *other]),
-                _ => return Err("an absolute value".into()),
-            },
-            None => {
-                let decision = Decision::Size { at: self.position, of, twice: twice.clone() };
-                if self.known.sign(twice.clone()).is_some() || !self.known.assume_size(of, &twice) {
-                    self.show(&quotient, Use::Branch)?;
-                    Law::Signed(of)
-                } else {
-                    self.sizes.push(decision);
-                    Law::AbsoluteValue(of)
-                }
-            }
-        };
-        let is_atom = matches!(law, Law::AbsoluteValue(_));
-        let fact = self.proof.add(Step::Law(law))?;
+        let replaced = self.known.context.size(&value);
+        let decision = Decision::Size { at: self.position, of, twice: twice.clone() };
+        let is_free = replaced.is_none() && self.known.sign(twice.clone()).is_none();
+        let is_new = is_free && self.known.assume_size(of, &twice);
+        self.sizes.extend(is_new.then_some(decision));
         self.met.push(size);
-        if is_atom {
+        if is_new || replaced == Some(size) {
+            let fact = self.proof.add(Step::Law(Law::AbsoluteValue(of)))?;
             self.known.sizes.insert(size, fact);
         } else {
+            self.show(&quotient, Use::Branch)?;
+            let fact = self.proof.add(Step::Law(Law::Signed(of)))?;
             self.known.equate(fact, &self.proof.state.facts.get(fact)?.0);
         }
         Ok(())

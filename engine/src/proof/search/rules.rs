@@ -121,7 +121,7 @@ impl Certificate {
     /// Applies rule 1.
     pub fn termwise(of: &Poly, known: &SignEnv) -> Option<Self> {
         let sign = of.terms().try_fold(Zero, |sum, (monomial, coefficient)| {
-            sum.plus(sign_of_number(coefficient).times(sign_of_monomial(monomial, known)?))
+            determined(sum.plus(sign_of_number(coefficient).times(sign_of_monomial(monomial, known)?)))
         });
         Some(Certificate { of: of.clone(), sign: sign?, rule: Rule::Terms })
     }
@@ -138,7 +138,7 @@ impl Certificate {
         let leading = find(&a, known).filter(|a| a.sign.is_strict())?;
         known.spend(&a, &d).and(known.spend(&b, &b))?;
         let rest = find(&(Poly::constant(4) * &a * d - &b * &b), known)?;
-        let sign = leading.sign.times(NonNegative.plus(rest.sign)?);
+        let sign = leading.sign.times(determined(NonNegative.plus(rest.sign))?);
         let root = Poly::constant(2) * a * Poly::variable(x) + b;
         let rule = Rule::Square { leading: leading.into(), root, rest: rest.into() };
         Some(Certificate { of: of.clone(), sign, rule })
@@ -153,7 +153,7 @@ impl Certificate {
         let others: Poly = others.into_iter().map(|(m, q)| (m.clone(), q.clone())).collect();
         [NonNegative, NonPositive].into_iter().find_map(|difference| {
             let bound = Certificate::termwise(&bound(&others, &sizes, difference), known)?;
-            let sign = bound.sign.plus(difference)?;
+            let sign = determined(bound.sign.plus(difference))?;
             Some(Certificate { of: of.clone(), sign, rule: Rule::Terms })
         })
     }
@@ -196,6 +196,11 @@ fn bound(others: &Poly, sizes: &[TermSize], difference: Sign) -> Poly {
     let replaced = sizes.iter().filter(|term| !term.sign.is_some_and(|sign| sign.implies(difference)));
     let sizes: Poly = replaced.map(|term| term.size.clone()).collect();
     if difference == NonNegative { others - &sizes } else { others + &sizes }
+}
+
+/// Returns the sign of a number that is not any number.
+pub fn determined(sign: Sign) -> Option<Sign> {
+    (sign != Sign::Any).then_some(sign)
 }
 
 /// Returns the sign of a coefficient, which is not 0.

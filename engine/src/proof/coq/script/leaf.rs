@@ -72,9 +72,8 @@ impl<'w> Writer<'w> {
         let kinds = self.is_known.iter().enumerate().map(|(x, is_known)| match table.sign(x) {
             _ if !is_known => "Any".into(),
             _ if table.is_unit(x) => "Unit".into(),
-            Some(sign) => format!("{sign:?}"),
-            None if self.target.positive == Some(x) => "Positive".into(),
-            None => "Any".into(),
+            _ if self.target.positive == Some(x) => "Positive".into(),
+            sign => format!("{sign:?}"),
         });
         let kinds = list(kinds.map(|kind| format!("A_Polynomials.{kind}")));
         let kinds = if self.is_known.is_empty() { "(@nil A_Polynomials.kind)" } else { &kinds };
@@ -152,7 +151,7 @@ impl<'w> Writer<'w> {
                 continue;
             }
             self.rounded.push(rounded);
-            let (powers, unscaled) = table.rounding(rounded)?;
+            let (powers, unscaled) = table.rounding(of);
             let x = self.target.variable(Atom::Error(unscaled))?;
             self.items.push(format!("F{x}"));
             if unscaled != of {
@@ -191,12 +190,6 @@ impl<'w> Writer<'w> {
                 let value = self.state.value(*of)?;
                 let is_positive = self.state.facts.have(&value, Sign::NonNegative);
                 format!("{}_size _ _ F{}", if is_positive { "own" } else { "negated" }, size(*of)?)
-            }
-            Law::SameSize([a, b]) => {
-                let (x, y) = (self.state.value(*a)?, self.state.value(*b)?);
-                let is_same = self.state.facts.have(&self.state.facts.sum(&x, -1, &y)?, Sign::Zero);
-                let lemma = if is_same { "same_size" } else { "opposite_size" };
-                format!("{lemma} _ _ _ _ F{} F{}", size(*a)?, size(*b)?)
             }
             Law::Order(rounded) => {
                 let [a, b] = rounded.map(|rounded| match target.problem.table.op(rounded)? {
