@@ -22,7 +22,7 @@ use crate::number::tree::Op;
 /// let claim = positive("distance", &g - &f).assuming([&further]);
 /// assert!(prove(&claim).is_ok() && prove(&claim.without(&further)).is_err());
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Statement {
     equation: &'static str,
     name: &'static str,
@@ -57,6 +57,12 @@ pub struct Computed {
     pub hypothesis: Hypothesis,
 }
 
+impl Default for Form {
+    fn default() -> Self {
+        Form::Propositions(Vec::new())
+    }
+}
+
 impl Statement {
     /// Returns a proposition without an equation number and without hypotheses.
     pub(crate) fn new(name: &'static str, proposition: Proposition) -> Self {
@@ -64,33 +70,16 @@ impl Statement {
     }
 
     pub(super) fn of_form(name: &'static str, form: Form) -> Self {
-        let (stated, computes, hypotheses, invariants, computed, goals) = Default::default();
-        let (equation, inherits, contains_rounding) = ("", true, false);
-        let fresh = Statement {
-            equation,
-            name,
-            stated,
-            inherits,
-            computes,
-            form,
-            contains_rounding,
-            hypotheses,
-            invariants,
-            computed,
-            goals,
-        };
-        fresh.derived()
+        Statement { name, inherits: true, form, ..Statement::default() }.derived()
     }
 
     /// Derives the hypotheses for each role and the goals.
     fn derived(mut self) -> Self {
         let mut hypotheses = self.stated.clone();
-        self.goals = Vec::new();
-        self.computed = Vec::new();
+        (self.goals, self.computed, self.invariants) = Default::default();
         for (symbol, by) in &self.computes {
-            let mut intervals = hypotheses.iter().map(Hypothesis::interval);
-            let index = intervals.position(|interval| interval.is_some_and(|(x, ..)| x == *symbol));
-            let Some(index) = index else { continue };
+            let is_interval = |h: &Hypothesis| h.interval().is_some_and(|(x, ..)| x == *symbol);
+            let Some(index) = hypotheses.iter().position(is_interval) else { continue };
             let hypothesis = hypotheses.remove(index);
             let proposition = Proposition::of_hypothesis(&hypothesis, &[(symbol, by.clone())]);
             let role = Role::Computed(self.computed.len());
@@ -99,23 +88,20 @@ impl Statement {
         }
         match &self.form {
             Form::Propositions(all) => {
-                self.invariants = Vec::new();
                 self.goals.extend(all.iter().map(|(part, of)| Goal::of_claim(part, of.clone())));
             }
             Form::Sequence(sequence) => {
-                self.invariants = match sequence.limit {
-                    Some(_) => Vec::new(),
-                    None => {
-                        let changing = hypotheses.extract_if(.., |h| sequence.changes(h));
-                        changing.chain(sequence.invariant()).collect()
-                    }
-                };
+                if sequence.limit.is_none() {
+                    self.invariants.extend(hypotheses.extract_if(.., |h| sequence.changes(h)));
+                    self.invariants.extend(sequence.invariant());
+                }
                 self.goals.extend(sequence.goals(&self.invariants));
             }
         }
         let stated = self.stated.iter().map(|hypothesis| &hypothesis.value);
-        self.contains_rounding =
-            self.contains_rounding || self.formulas().chain(stated).any(Tree::contains_rounding);
+        let contains_rounding = self.formulas().chain(stated).any(Tree::contains_rounding);
+        // A statement is still about any precision without the hypothesis that contains its roundings.
+        self.contains_rounding |= contains_rounding;
         if self.contains_rounding {
             // The minimum precision comes last if other hypotheses on the precision, which are stronger,
             // exist.

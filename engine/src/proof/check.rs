@@ -247,9 +247,6 @@ pub fn check(statement: &Statement, goals: &[Node]) -> Result<Proof, CheckError>
 fn check_node(problem: &Problem, cases: &mut Vec<(Polynomial, Sign)>, node: &Node) -> Checked<()> {
     match node {
         Node::Cases(on, both) => {
-            if !on.has_only(|x| x < problem.table.atoms().len()) {
-                return Err(Refusal::Unknown);
-            }
             if cases.len() >= MAX_NESTING {
                 return Err(Refusal::TooLarge);
             }

@@ -27,8 +27,7 @@ impl State<'_> {
         if count > MAX_VARIABLES {
             return Err(Refusal::TooLarge);
         }
-        if !of.has_only(|x| x < first) || [left, right].into_iter().any(|form| !form.has_only(|x| x < count))
-        {
+        if [left, right].into_iter().any(|form| !form.has_only(|x| x < count)) {
             return Err(Refusal::Unknown);
         }
         let [mut left, mut right] = [left.clone(), right.clone()];

@@ -89,34 +89,23 @@ impl Polynomial {
         Polynomial::new(terms)
     }
 
-    /// Returns minus the polynomial.
-    pub fn negated(&self) -> Checked<Self> {
-        let terms = self.0.iter().map(|(powers, n)| Ok((*powers, n.checked_neg().ok_or(Refusal::TooLarge)?)));
-        terms.collect::<Checked<_>>().map(Polynomial)
-    }
-
     /// Returns the product.
     pub fn times(&self, other: &Self, effort: &Effort) -> Checked<Self> {
         if other.is_one() {
             return Ok(self.clone());
         }
-        let count = self.0.len().checked_mul(other.0.len()).filter(|count| *count <= MAX_TERMS);
-        let count = count.ok_or(Refusal::TooLarge)?;
-        effort.spend(count).ok_or(Refusal::TooLarge)?;
+        let count = self.0.len().saturating_mul(other.0.len());
+        effort.spend(count).filter(|()| count <= MAX_TERMS).ok_or(Refusal::TooLarge)?;
         let mut terms = Vec::with_capacity(count);
         // Few long runs of ascending terms are sorted fast.
         let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
         for (a, p) in &short.0 {
             for (b, q) in &long.0 {
-                let mut is_too_large = false;
-                // A loop without an exit is compiled to few instructions.
-                let powers = std::array::from_fn(|x| {
-                    let (sum, exceeds) = a[x].overflowing_add(b[x]);
-                    is_too_large |= exceeds;
-                    sum
-                });
-                let number = p.checked_mul(*q).filter(|_| !is_too_large).ok_or(Refusal::TooLarge)?;
-                terms.push((powers, number));
+                let mut powers = *a;
+                for (n, m) in powers.iter_mut().zip(b) {
+                    *n = n.checked_add(*m).ok_or(Refusal::TooLarge)?;
+                }
+                terms.push((powers, p.checked_mul(*q).ok_or(Refusal::TooLarge)?));
             }
         }
         Polynomial::new(terms)

@@ -1,9 +1,8 @@
 //! The premises of a statement, which hold for every proof of it.
 
 use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
-use crate::formula::statement::{Computed, Sequence, Statement};
+use crate::formula::statement::{Sequence, Statement};
 use crate::number::Tree;
-use std::iter;
 
 /// A premise that a statement does not satisfy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -77,56 +76,43 @@ pub fn check_size<'t>(trees: impl Iterator<Item = &'t Tree> + Clone) -> Result<(
 ///   its distance from that do not depend on members or computed symbols; the bounds of other quantities do
 ///   not depend on members.
 fn check_names(statement: &Statement) -> Result<(), Premise> {
-    let is_perturbed = statement.conclusion().is_some_and(|sequence| sequence.is_perturbed());
-    let is_reserved = |name| {
-        let is_allowed = is_perturbed && name == MEMBERS[0];
-        is_name_of_proof(name) || (MEMBERS.contains(&name) && !is_allowed)
-    };
-    refuse(statement.trees(), is_reserved)?;
-    let mut variables = statement.goals().iter().filter_map(|goal| goal.proposition.variable());
-    variables.find(|name| is_reserved(name)).map_or(Ok(()), |name| Err(Premise::ReservedName(name)))?;
-
-    let computed = statement.computed();
+    let computed: Vec<_> = statement.computed().iter().map(|computed| computed.symbol).collect();
+    let is_perturbed = statement.conclusion().is_some_and(Sequence::is_perturbed);
+    let members = &MEMBERS[usize::from(is_perturbed)..];
+    let variables = statement.goals().iter().filter_map(|goal| goal.proposition.variable());
+    let mut names = statement.trees().flat_map(Tree::symbols).chain(variables);
+    let reserved = names.find(|name| is_name_of_proof(name) || members.contains(name));
     let mut predefined = [POWER, PRECISION].into_iter().chain(MEMBERS).chain(SCALES);
-    let found = predefined.find(|name| is_among(name, computed));
+    let found = reserved.or_else(|| predefined.find(|name| computed.contains(name)));
     found.map_or(Ok(()), |name| Err(Premise::ReservedName(name)))?;
 
     let hypotheses = statement.hypotheses().iter().map(|hypothesis| &hypothesis.value);
     if let Some(Sequence { start, step, ratio, limit, member, within }) = statement.conclusion() {
-        refuse(start.iter().chain([ratio]).chain(limit), |name| {
-            name == POWER || MEMBERS.contains(&name) || is_among(name, computed)
-        })?;
-        refuse(step.iter(), |name| name == POWER)?;
+        let changing = [&[POWER], &MEMBERS[..], &computed].concat();
+        refuse(start.iter().chain([ratio]).chain(limit), &changing, Premise::ReservedName)?;
+        refuse(step, &[POWER], Premise::ReservedName)?;
         // An assumption about one power need not hold as the power tends to 0.
-        refuse(hypotheses.clone().filter(|_| limit.is_some()), |name| name == POWER)?;
+        let of_limit = hypotheses.clone().filter(|_| limit.is_some());
+        refuse(of_limit, &[POWER], Premise::ReservedName)?;
         let bounds = within.iter().map(|(_, bound)| bound);
-        refuse(member.iter().chain(bounds.clone().take(1)), |name| {
-            name == MEMBERS[0] || is_among(name, computed)
-        })?;
-        refuse(bounds, |name| name == MEMBERS[0])?;
+        let closed = member.iter().chain(bounds.clone().take(1));
+        refuse(closed, &[&MEMBERS[..1], &computed].concat(), Premise::ReservedName)?;
+        refuse(bounds, &MEMBERS[..1], Premise::ReservedName)?;
     }
     let invariants = statement.invariants().iter().map(|invariant| &invariant.value);
-    refuse_computed(hypotheses.chain(invariants), computed)?;
-    (0..computed.len()).try_for_each(|i| refuse_computed(iter::once(&computed[i].formula), &computed[i..]))
+    refuse(hypotheses.chain(invariants), &computed, Premise::HypothesisOnComputed)?;
+    let mut steps = statement.computed().iter().enumerate();
+    steps.try_for_each(|(i, by)| refuse([&by.formula], &computed[i..], Premise::HypothesisOnComputed))
 }
 
-/// Rejects formulas that contain a name for which `is_refused` holds.
+/// Rejects formulas that contain one of the names.
 fn refuse<'t>(
-    trees: impl Iterator<Item = &'t Tree>,
-    is_refused: impl Fn(&'static str) -> bool,
+    trees: impl IntoIterator<Item = &'t Tree>,
+    names: &[&str],
+    premise: fn(&'static str) -> Premise,
 ) -> Result<(), Premise> {
-    let found = trees.flat_map(Tree::symbols).find(|name| is_refused(name));
-    found.map_or(Ok(()), |name| Err(Premise::ReservedName(name)))
-}
-
-/// Rejects formulas that contain the symbol of a computed quantity.
-fn refuse_computed<'t>(trees: impl Iterator<Item = &'t Tree>, computed: &[Computed]) -> Result<(), Premise> {
-    let found = trees.flat_map(Tree::symbols).find(|name| is_among(name, computed));
-    found.map_or(Ok(()), |name| Err(Premise::HypothesisOnComputed(name)))
-}
-
-fn is_among(name: &str, computed: &[Computed]) -> bool {
-    computed.iter().any(|computed| computed.symbol == name)
+    let found = trees.into_iter().flat_map(Tree::symbols).find(|name| names.contains(name));
+    found.map_or(Ok(()), |name| Err(premise(name)))
 }
 
 /// Returns `true` if `name` has the form of that of an error, a parameter or another quantity of a proof.

@@ -42,12 +42,12 @@ impl<'p> State<'p> {
         let (assumed, divisors, symbols, values) = Default::default();
         let signs = signs.collect();
         let mut state = State { problem, facts, signs, assumed, divisors, symbols, values };
-        state.add_fact(Polynomial::constant(2), Sign::Positive);
+        state.add_fact(Polynomial::constant(2), Sign::Positive)?;
         for (case, sign) in cases {
+            state.add_fact(case.clone(), *sign)?;
             if !case.has_only(|x| !problem.varies(x)) {
                 return Err(Refusal::Limit);
             }
-            state.add_fact(case.clone(), *sign);
         }
         Ok(state)
     }
@@ -55,42 +55,39 @@ impl<'p> State<'p> {
     /// Applies a step.
     pub fn apply(&mut self, step: &Step) -> Checked<()> {
         match step {
-            Step::Assume(i) => self.assume(*i)?,
+            Step::Assume(i) => self.assume(*i),
             Step::Show(of, certificate) => self.add_fact(of.clone(), self.certify(of, certificate)?),
-            Step::Square(of) => {
-                if !of.has_only(|x| x < self.signs.len()) {
-                    return Err(Refusal::Unknown);
-                }
-                self.add_fact(of.times(of, &self.facts.effort)?, Sign::NonNegative);
-            }
-            Step::Divisor(factors) => {
-                if !self.facts.sign_of_product(factors)?.is_strict() {
-                    return Err(Refusal::NotStrict);
-                }
+            Step::Square(of) => self.add_fact(of.times(of, &self.facts.effort)?, Sign::NonNegative),
+            Step::Divisor(factors) if self.facts.sign_of_product(factors)?.is_strict() => {
                 self.divisors.push((self.facts.product(factors)?, factors.clone()));
+                Ok(())
             }
+            Step::Divisor(_) => Err(Refusal::NotStrict),
             Step::Law(law) => {
                 let (of, sign) = self.instance(law)?;
-                self.add_quotient(of, sign)?;
+                self.add_quotient(of, sign)
             }
         }
-        Ok(())
     }
 
-    fn add_fact(&mut self, of: Polynomial, sign: Sign) {
+    /// Adds the fact that a polynomial of atoms has a sign.
+    fn add_fact(&mut self, of: Polynomial, sign: Sign) -> Checked<()> {
+        if !of.has_only(|x| x < self.signs.len()) {
+            return Err(Refusal::Unknown);
+        }
         if let Some(known) = of.as_variable().and_then(|x| self.signs.get_mut(x))
             && !known.implies(sign)
         {
             *known = sign;
         }
         self.facts.add(of, sign);
+        Ok(())
     }
 
     /// Adds the fact that follows from the sign of a quotient.
     fn add_quotient(&mut self, of: Quotient, sign: Sign) -> Checked<()> {
         let sign = self.facts.sign_of_product(&of.den)?.times(sign);
-        self.add_fact(of.num, sign);
-        Ok(())
+        self.add_fact(of.num, sign)
     }
 
     /// Uses the hypothesis with a number.
@@ -107,12 +104,11 @@ impl<'p> State<'p> {
         };
         let [lower, upper] = ends.map(|end| self.value(end));
         let (lower, upper) = (lower?, upper?);
-        let half = Quotient { num: Polynomial::constant(1), den: vec![TWO] };
-        let effort = &self.facts.effort;
-        let middle = self.facts.sum(&upper, 1, &lower)?.times(&half, effort)?;
-        let reach = self.facts.sum(&upper, -1, &lower)?.times(&half, effort)?;
-        let distance = reach.times(&self.variable(Atom::IntervalParameter(i))?.into(), effort)?;
-        let value = self.facts.sum(&middle, 1, &distance)?;
+        let (t, half) =
+            (self.variable(Atom::IntervalParameter(i))?, Quotient::new(Polynomial::constant(1), vec![TWO]));
+        let reach = self.facts.sum(&upper, -1, &lower)?.times(&t.into(), &self.facts.effort)?;
+        let twice = self.facts.sum(&self.facts.sum(&upper, 1, &lower)?, 1, &reach)?;
+        let value = twice.times(&half, &self.facts.effort)?;
         self.symbols.entry(x).or_insert(value);
         self.values.clear();
         Ok(())
@@ -160,9 +156,8 @@ impl<'p> State<'p> {
                 let (Op::Rounded(x), Op::Rounded(y)) = (table.op(a)?, table.op(b)?) else {
                     return Err(Refusal::Unknown);
                 };
-                let difference = self.difference(x, y)?;
-                self.premise(&difference, [NonNegative])?;
-                (self.difference(a, b)?, NonNegative)
+                let difference = self.sum(x, -1, y)?;
+                (self.sum(a, -1, b)?, self.premise(&difference, [NonNegative])?)
             }
         })
     }
@@ -219,11 +214,8 @@ impl<'p> State<'p> {
                 let a = self.value(a)?;
                 self.facts.sum(&Polynomial::zero().into(), -1, &a)?
             }
-            Add(a, b) => {
-                let (a, b) = (self.value(a)?, self.value(b)?);
-                self.facts.sum(&a, 1, &b)?
-            }
-            Sub(a, b) => self.difference(a, b)?,
+            Add(a, b) => self.sum(a, 1, b)?,
+            Sub(a, b) => self.sum(a, -1, b)?,
             Mul(a, b) => self.value(a)?.times(&self.value(b)?, &self.facts.effort)?,
             Div(a, b) => {
                 let (a, b) = (self.value(a)?, self.value(b)?);
@@ -241,7 +233,11 @@ impl<'p> State<'p> {
                 let (first, second) = (self.value(a)?, self.value(b)?);
                 // min(−x, x) is −|x|.
                 if self.problem.table.op(a)? == Neg(b) {
-                    return Ok(self.variable(Atom::Size(b))?.negated()?.into());
+                    return Ok(self.facts.sum(
+                        &Polynomial::zero().into(),
+                        -1,
+                        &self.variable(Atom::Size(b))?.into(),
+                    )?);
                 }
                 self.chosen(&self.facts.sum(&second, -1, &first)?, &first, &second)?
             }
@@ -258,10 +254,10 @@ impl<'p> State<'p> {
         })
     }
 
-    /// Returns a − b.
-    fn difference(&mut self, a: usize, b: usize) -> Checked<Quotient> {
+    /// Returns a + n b for two formulas.
+    fn sum(&mut self, a: usize, n: i128, b: usize) -> Checked<Quotient> {
         let (a, b) = (self.value(a)?, self.value(b)?);
-        self.facts.sum(&a, -1, &b)
+        self.facts.sum(&a, n, &b)
     }
 
     /// Returns the reciprocal of a divisor, which is a fact or a product of facts.

@@ -83,7 +83,7 @@ impl<'a> Page<'a> {
         match of.into().op() {
             Op::Symbol(name) => Polynomial::variable(self.variable(name)).unwrap(),
             Op::Int(n) => Polynomial::constant((*n).into()),
-            Op::Neg(a) => self.poly(a).negated().unwrap(),
+            Op::Neg(a) => self.poly(Tree::from(0) - a),
             Op::Add(a, b) => self.poly(a).plus_multiple(1, &self.poly(b), &self.0.effort).unwrap(),
             Op::Sub(a, b) => self.poly(a).plus_multiple(-1, &self.poly(b), &self.0.effort).unwrap(),
             Op::Mul(a, b) => self.poly(a).times(&self.poly(b), &self.0.effort).unwrap(),
