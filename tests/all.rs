@@ -7,6 +7,8 @@ mod derivatives;
 #[cfg(feature = "mpfr")]
 mod oracles;
 #[cfg(feature = "mpfr")]
+mod properties;
+#[cfg(feature = "mpfr")]
 mod small_floats;
 #[cfg(feature = "mpfr")]
 mod solver;
@@ -25,7 +27,6 @@ mod coqc;
 mod examples;
 #[cfg(feature = "prover")]
 mod files;
-#[cfg(feature = "prover")]
 #[cfg(feature = "prover")]
 mod mutation;
 #[cfg(feature = "prover")]

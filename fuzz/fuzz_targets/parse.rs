@@ -2,4 +2,4 @@
 
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| any_bits::test("parse", bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| any_bits::parse(bytes));

@@ -2,4 +2,4 @@
 
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| any_bits::test("reply", bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| any_bits::read(bytes));

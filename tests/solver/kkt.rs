@@ -79,20 +79,6 @@ fn the_other_branch_violates_one_condition() {
     });
 }
 
-/// The penalty method violates (1.6) by p = R/(c + ε) and p N = ε p² only.
-#[test]
-fn penalty_violates_by_known_amounts() {
-    holds(any_state(WIDE), |case| {
-        let Case { system: s, eps, .. } = case;
-        let p = case.reaction().positive_part() / (&s.c + eps);
-        let answer = solve(s, &case.penalty()).unwrap();
-        let kkt = answer.certificate(s).unwrap();
-        assert_eq!((kkt.stationarity, kkt.dual), (int(0), int(0)));
-        assert_eq!((kkt.primal, kkt.complementarity), (p.clone(), eps * &p * &p));
-        assert_eq!(answer.contact_force, eps * p);
-    });
-}
-
 /// As printed, the plane pulls if the mass is separated: N = R < 0.
 #[test]
 fn a_bilateral_plane_pulls_when_separated() {

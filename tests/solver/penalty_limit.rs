@@ -26,28 +26,6 @@ fn the_rate_is_exact() {
     });
 }
 
-/// The definition of the limit: for every δ > 0 there is an ε from which on the error is below δ.
-#[test]
-fn the_limit_is_the_gap() {
-    holds((any_state(WIDE), positive(WIDE), positive(WIDE)), |(case, delta, beyond)| {
-        let s = &case.system;
-        let eps = (case.reaction().abs() / delta - &s.c).positive_part() + beyond;
-        let u = penalty::deflection(s, &eps);
-        assert!((&u - system::gap(s)).abs() < *delta);
-        assert!(contact::penetration(s, &u).abs() < *delta);
-    });
-}
-
-/// The error decreases strictly with the penalty.
-#[test]
-fn the_error_falls_with_the_penalty() {
-    holds((not_grazing(WIDE), positive(WIDE)), |(case, more)| {
-        let Case { system: s, eps, .. } = case;
-        let error = |eps: &Exact| (penalty::deflection(s, eps) - system::gap(s)).abs();
-        assert!(error(&(eps + more)) < error(eps));
-    });
-}
-
 /// With unilateral contact the plane has no effect on a separated mass.
 #[test]
 fn the_plane_of_solve_is_one_sided() {

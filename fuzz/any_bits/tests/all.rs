@@ -1,31 +1,23 @@
-//! Tests of the binary, which `.ci/run` runs with more executions.
+//! Random bytes as arguments; `PROPTEST_CASES` sets their number.
 
-use std::process::{Command, Output};
+use proptest::collection::vec;
+use proptest::num::u8::ANY;
+use proptest::proptest;
 
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_any_bits")).args(arguments).output().unwrap()
-}
-
-#[test]
-fn a_sample_of_bits_violates_no_property() {
-    for target in ["parse", "solve_f64", "functions"] {
-        let output = run(&["--executions", "50", "--target", target]);
-        assert!(output.status.success(), "{output:?}");
+proptest! {
+    #[test]
+    fn any_text_is_a_number_or_refused(bytes in vec(ANY, 40)) {
+        any_bits::parse(&bytes);
     }
-}
 
-#[test]
-fn invalid_arguments_are_named() {
-    for (arguments, message) in [
-        (
-            ["--target", "none"],
-            "error: invalid value \"none\" for '--target': must be one of parse, solve_f32",
-        ),
-        (["--seed", "-1"], "error: invalid value \"-1\" for '--seed': must be an integer from 0 to"),
-        (["--sed", "1"], "error: unexpected \"--sed\"; there are --target"),
-    ] {
-        let output = run(&arguments);
-        let error = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.code() == Some(2) && error.starts_with(message), "{error}");
+    #[test]
+    fn any_answer_is_assessed_or_refused(bytes in vec(ANY, 128)) {
+        any_bits::read(&bytes);
+    }
+
+    #[test]
+    #[ignore = "proves all claims and refutes their mutations first"]
+    fn no_changed_proof_proves_a_false_statement(bytes in vec(ANY, 112)) {
+        any_bits::prove_nothing(&bytes);
     }
 }

@@ -1,5 +1,0 @@
-//! The functions beside `solve`.
-
-#![no_main]
-
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| any_bits::test("functions", bytes));
