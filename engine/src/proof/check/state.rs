@@ -229,16 +229,14 @@ impl<'p> State<'p> {
                 let a = self.value(a)?;
                 self.chosen(&a, &a, &Polynomial::zero().into())?
             }
+            // min(−x, x) is −|x|.
+            Min(a, b) if self.problem.table.op(a)? == Neg(b) => {
+                self.value(b)?;
+                let size = self.variable(Atom::Size(b))?;
+                self.facts.sum(&Polynomial::zero().into(), -1, &size.into())?
+            }
             Min(a, b) => {
                 let (first, second) = (self.value(a)?, self.value(b)?);
-                // min(−x, x) is −|x|.
-                if self.problem.table.op(a)? == Neg(b) {
-                    return Ok(self.facts.sum(
-                        &Polynomial::zero().into(),
-                        -1,
-                        &self.variable(Atom::Size(b))?.into(),
-                    )?);
-                }
                 self.chosen(&self.facts.sum(&second, -1, &first)?, &first, &second)?
             }
             Rounded(a) => {
