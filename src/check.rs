@@ -1,7 +1,7 @@
 //! Comparison of an external solver with exact solutions, and diagnosis of its mistakes.
 //!
 //! ```
-//! use spring_mass_contact::check::{Answer, Family, Reply, Verdict, check, problems};
+//! use spring_mass_contact::check::{Answer, Family, Reply, AnswerVerdict, check, problems};
 //! use spring_mass_contact::chapter::lagrange;
 //!
 //! // A solver whose plane also pulls.
@@ -11,7 +11,7 @@
 //! })?;
 //! let families = report.families();
 //! let of = |family| families.iter().find(|row| row.family == family).unwrap().verdict;
-//! assert_eq!((of(Family::Contact), of(Family::Separated)), (Verdict::Right, Verdict::Wrong));
+//! assert_eq!((of(Family::Contact), of(Family::Separated)), (AnswerVerdict::Right, AnswerVerdict::Wrong));
 //! assert_eq!(report.identified_mistake().unwrap().name, "the plane always acts");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -31,8 +31,8 @@ mod tests;
 use crate::chapter::{SpringMass, system};
 use crate::number::{Exact, PositivePart};
 use crate::solver::State;
-pub use assessment::{Assessment, Verdict};
-pub use condition::{Condition, Quantity, Threshold};
+pub use assessment::{AnswerVerdict, Assessment};
+pub use condition::{FailureCondition, Threshold, ThresholdQuantity};
 use diagnosis::{Cause, INFORMATIVE, Search};
 pub use diagnosis::{Diagnosis, DiagnosisScope};
 use observation::Observation;
@@ -41,23 +41,23 @@ pub use problems::{DIGITS, Family, Problem, UnknownFamily, problems};
 use std::collections::BTreeMap;
 
 /// A number reported by a solver; `None` if it is infinite or NaN.
-pub type Value = Option<Exact>;
+pub type ReportedNumber = Option<Exact>;
 
 /// Answer of a solver, in SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answer {
     /// u, in m.
-    pub deflection: Value,
+    pub deflection: ReportedNumber,
     /// N, in N.
-    pub contact_force: Value,
+    pub contact_force: ReportedNumber,
     /// Penetration p, in m, if it is reported.
-    pub penetration: Option<Value>,
+    pub penetration: Option<ReportedNumber>,
     /// Status reported by the solver.
     pub status: Option<String>,
     /// Parameters that the solver used, if they differ from those of the problem.
     pub used: UsedParameters,
     /// u and N of every step, if they are reported.
-    pub steps: Vec<[Value; 2]>,
+    pub steps: Vec<[ReportedNumber; 2]>,
 }
 
 impl Answer {
@@ -71,9 +71,9 @@ impl Answer {
 #[derive(Clone, Debug, PartialEq)]
 pub struct UsedParameters {
     /// The five parameters.
-    pub system: SpringMass<Option<Value>>,
+    pub system: SpringMass<Option<ReportedNumber>>,
     /// ε, in N/m.
-    pub penalty: Option<Value>,
+    pub penalty: Option<ReportedNumber>,
 }
 
 impl Default for UsedParameters {
@@ -127,7 +127,7 @@ pub struct Report {
     pub carried_over: Vec<[usize; 2]>,
     /// Conditions each of which separates the wrong answers from the right ones. Empty if an explanation of all
     /// answers is found.
-    pub conditions: Vec<Condition>,
+    pub conditions: Vec<FailureCondition>,
     /// Number of right answers that the diagnosed mistakes would also give, which the conditions disregard.
     pub disregarded: usize,
     /// The largest error of u in m, of N in N, and of their equilibrium in N: each if it does not grow with the systems,
@@ -172,7 +172,7 @@ pub struct FamilyResult<'a> {
     /// Number of its problems.
     pub cases: usize,
     /// The worst verdict.
-    pub verdict: Verdict,
+    pub verdict: AnswerVerdict,
     /// Number of problems with the worst verdict.
     pub count: usize,
     /// Number of answers that are right or within the tolerance.
@@ -310,7 +310,7 @@ impl Report {
         let before = right.len();
         right.retain(|answer| !causes.iter().any(|cause| search.may_cause(cause, answer)));
         self.disregarded = before - right.len();
-        self.conditions = Condition::separating(&wrong, &right);
+        self.conditions = FailureCondition::separating(&wrong, &right);
         if self.conditions.is_empty() {
             // A wrong decision needs no condition.
             causes.retain(Cause::is_decision);
@@ -355,17 +355,17 @@ impl Report {
     /// Returns the numbers of problems by verdict.
     pub fn summary(&self) -> VerdictCounts {
         VerdictCounts {
-            right: self.count(Verdict::Right),
-            within_tolerance: self.count(Verdict::WithinTolerance),
-            wrong: self.count(Verdict::Wrong),
-            refused: self.count(Verdict::Refused),
-            crashed: self.count(Verdict::Crashed),
-            timed_out: self.count(Verdict::TimedOut),
+            right: self.count(AnswerVerdict::Right),
+            within_tolerance: self.count(AnswerVerdict::WithinTolerance),
+            wrong: self.count(AnswerVerdict::Wrong),
+            refused: self.count(AnswerVerdict::Refused),
+            crashed: self.count(AnswerVerdict::Crashed),
+            timed_out: self.count(AnswerVerdict::TimedOut),
         }
     }
 
     /// Returns the number of problems with a verdict.
-    fn count(&self, verdict: Verdict) -> usize {
+    fn count(&self, verdict: AnswerVerdict) -> usize {
         self.tallies.values().filter_map(|tally| tally.counts.get(&verdict)).sum()
     }
 
@@ -413,7 +413,7 @@ impl<'a> FamilyResult<'a> {
             .filter(|result| result.problem.family == family && result.assessment.verdict == *verdict);
         let worst = bad.max_by_key(|result| result.assessment.error())?;
         let [worst_deflection, worst_force] = tally.largest_errors.clone();
-        let right = tally.counts.range(..=Verdict::WithinTolerance).map(|(_, count)| count).sum();
+        let right = tally.counts.range(..=AnswerVerdict::WithinTolerance).map(|(_, count)| count).sum();
         let cases = tally.counts.values().sum();
         Some(FamilyResult {
             family,
@@ -435,7 +435,7 @@ const MAX_KEPT: usize = 1000;
 #[derive(Clone, Debug, Default)]
 struct Tally {
     kept: usize,
-    counts: BTreeMap<Verdict, usize>,
+    counts: BTreeMap<AnswerVerdict, usize>,
     /// The largest errors of u and N.
     largest_errors: [Option<Exact>; 2],
 }

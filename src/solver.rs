@@ -27,7 +27,9 @@ pub use augmentation::{Augmentation, Iterate};
 pub use closed::kth_iterate;
 #[cfg(feature = "mpfr")]
 pub use exact::*;
-pub use functional::{Condition, DualEnclosure, FunctionalError, penalty_for_functional, solve_functional};
+pub use functional::{
+    DualEnclosure, FunctionalCondition, FunctionalError, penalty_for_functional, solve_functional,
+};
 pub use scalar::{Interval, Scalar};
 pub use solution::{Bounds, MAX_AUGMENTATIONS, Method, Outcome, Plane, Solution, State};
 pub use validate::SolveError;

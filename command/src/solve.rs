@@ -148,7 +148,7 @@ impl Options {
         {
             return Err(self.out_of_range(SolveError::OutOfRange { quantity: "trace" }));
         }
-        let kkt = solution.certificate(&problem.system).map_err(|error| self.out_of_range(error))?;
+        let kkt = solution.residuals(&problem.system).map_err(|error| self.out_of_range(error))?;
         let steps_needed = needed.map(|steps| steps.to_string());
         let report = Report { options: self, problem: &problem, solution: &solution, kkt, steps_needed };
         match self.format {

@@ -318,7 +318,7 @@ fn the_library_and_the_command_serialise_alike() {
         let mut iterates = Vec::new();
         let solution = solve_observed(&system, &method, Plane::Unilateral, |k| iterates.push(k.clone()));
         let solution = solution.unwrap();
-        assert_eq!(printed["kkt"], serde_json::to_value(solution.certificate(&system).unwrap()).unwrap());
+        assert_eq!(printed["kkt"], serde_json::to_value(solution.residuals(&system).unwrap()).unwrap());
         let solution = serde_json::to_value(solution).unwrap();
         let all = "augmentations bounds contact_force deflection floor multiplier outcome penetration state";
         assert_eq!(keys(&solution), words(all));

@@ -14,8 +14,8 @@ mod shrink;
 #[cfg(test)]
 mod tests;
 
-pub use computed::{Computed, Floats};
-pub use domain::{Balls, Domain, Quantity, Rationals, Value};
+pub use computed::{Floats, RoundedRationals};
+pub use domain::{Balls, Decidable, Domain, Rationals, Value};
 pub use evaluation::{
     Compiled, Evaluation, Failure, Instance, Test, UNFOLDED_MEMBERS, Verdict, check, independent_symbols,
     instances, premises,

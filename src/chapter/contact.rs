@@ -74,7 +74,7 @@ impl<T: Field> Kkt<T> {
 /// `c u − m g + N = 0, ⟨p⟩ = 0, ⟨−N⟩ = 0, p N = 0`
 ///
 /// As printed, (1.6) leaves out grazing (p = 0 and N = 0) and equilibrium; here both are in. On
-/// rationals this is the certificate of a solution. Domain: all. Source: §1.2.
+/// rationals these are 0 for a solution and for nothing else. Domain: all. Source: §1.2.
 ///
 /// ```
 /// # use spring_mass_contact::chapter::{SpringMass, contact};

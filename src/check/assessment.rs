@@ -6,7 +6,7 @@
 
 use super::problems::decimal;
 use super::program::right;
-use super::{Answer, Problem, Reply, Value};
+use super::{Answer, Problem, Reply, ReportedNumber};
 use crate::chapter::contact::{self, Kkt};
 use crate::chapter::{SpringMass, augmented, structure, system};
 use crate::number::{Ball, Exact, PositivePart, ToExact};
@@ -17,7 +17,7 @@ use strum::Display;
 /// Verdict on an answer, in increasing severity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Display)]
 #[strum(serialize_all = "snake_case")]
-pub enum Verdict {
+pub enum AnswerVerdict {
     /// Within the rounding error of the formula in f64.
     Right,
     /// Within the tolerance.
@@ -33,13 +33,13 @@ pub enum Verdict {
 }
 
 #[cfg(feature = "serde")]
-crate::number::serialize_as_displayed!(Verdict);
+crate::number::serialize_as_displayed!(AnswerVerdict);
 
 /// Comparison of an answer with the exact solution.
 #[derive(Clone, Debug)]
 pub struct Assessment {
     /// The verdict.
-    pub verdict: Verdict,
+    pub verdict: AnswerVerdict,
     /// Exact solution for the parameters that the solver used.
     pub exact: Solution<Exact>,
     /// Whether u and N are right or within the tolerance.
@@ -83,7 +83,12 @@ impl Problem {
 }
 
 /// Returns the value of a parameter that the solver used, if it is near the requested one.
-fn value_used(name: &str, asked: &Exact, used: &Option<Value>, tolerance: &Exact) -> Result<Exact, String> {
+fn value_used(
+    name: &str,
+    asked: &Exact,
+    used: &Option<ReportedNumber>,
+    tolerance: &Exact,
+) -> Result<Exact, String> {
     let zero = Exact::zero();
     match used {
         None => Ok(asked.clone()),
@@ -161,12 +166,12 @@ impl Assessment {
         let (verdict, finding) = match reply {
             Reply::Answered(answer) => match problem.as_used(answer, tolerance) {
                 Ok(solved) => return Assessment::of_answer(solved, answer, tolerance),
-                Err(finding) => (Verdict::Wrong, finding),
+                Err(finding) => (AnswerVerdict::Wrong, finding),
             },
-            Reply::Refused(reason) => (Verdict::Refused, reason.clone()),
-            Reply::InvalidResponse(reason) => (Verdict::Wrong, reason.clone()),
-            Reply::Crashed(output) => (Verdict::Crashed, output.clone()),
-            Reply::TimedOut(output) => (Verdict::TimedOut, format!("no answer in time; {output}")),
+            Reply::Refused(reason) => (AnswerVerdict::Refused, reason.clone()),
+            Reply::InvalidResponse(reason) => (AnswerVerdict::Wrong, reason.clone()),
+            Reply::Crashed(output) => (AnswerVerdict::Crashed, output.clone()),
+            Reply::TimedOut(output) => (AnswerVerdict::TimedOut, format!("no answer in time; {output}")),
         };
         Assessment {
             verdict,
@@ -199,9 +204,9 @@ impl Assessment {
             wrong_state(numbers, exact.state, both[1].is_near, &(tolerance * &scales[1]))
         };
         let verdict = match finding {
-            None if both.iter().all(|number| number.is_right) => Verdict::Right,
-            None if has_right_numbers => Verdict::WithinTolerance,
-            _ => Verdict::Wrong,
+            None if both.iter().all(|number| number.is_right) => AnswerVerdict::Right,
+            None if has_right_numbers => AnswerVerdict::WithinTolerance,
+            _ => AnswerVerdict::Wrong,
         };
         let kkt = match numbers {
             [Some(u), Some(n)] => Some(contact::kkt(&problem.system, u, n)),
@@ -276,7 +281,7 @@ fn penetrates_otherwise(
 
 /// Describes missing numbers or a wrong state.
 fn wrong_state(
-    numbers: [&Value; 2],
+    numbers: [&ReportedNumber; 2],
     exact: State,
     has_right_force: bool,
     tolerance: &Exact,
@@ -304,7 +309,7 @@ fn wrong_state(
 
 /// Returns whether the force of each step is that of the previous step. The initial state is not a step, so
 /// one step does not decide it.
-fn lags(system: &SpringMass<Exact>, steps: &[[Value; 2]], tolerance: &Exact) -> Option<bool> {
+fn lags(system: &SpringMass<Exact>, steps: &[[ReportedNumber; 2]], tolerance: &Exact) -> Option<bool> {
     let [_, scale] = scales(system);
     let tolerance = tolerance * scale;
     let mut is_behind = Vec::new();

@@ -10,7 +10,7 @@ use strum::{Display, VariantArray};
 /// A quantity of a system, or of its place in the session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Display, VariantArray)]
 #[strum(serialize_all = "snake_case")]
-pub enum Quantity {
+pub enum ThresholdQuantity {
     /// |R|/c, in m: the distance between the plane and the mass without the plane.
     Penetration,
     /// |R|, in N: the force that brings the mass to the plane.
@@ -39,24 +39,24 @@ pub enum Quantity {
     Position,
 }
 
-impl Quantity {
+impl ThresholdQuantity {
     /// All quantities.
-    pub const ALL: &[Quantity] = Quantity::VARIANTS;
+    pub const ALL: &[ThresholdQuantity] = ThresholdQuantity::VARIANTS;
 
     fn symbol_and_unit(self) -> (&'static str, &'static str) {
         match self {
-            Quantity::Penetration => ("|R|/c", " m"),
-            Quantity::Force => ("|R|", " N"),
-            Quantity::ForceByWeight => ("|R|", " |m g|"),
-            Quantity::PenetrationByHeight => ("|R|/c", " |H|"),
-            Quantity::Gap => ("H − l", " m"),
-            Quantity::Stiffness => ("c", " N/m"),
-            Quantity::Mass => ("m", " kg"),
-            Quantity::Gravity => ("g", " m/s²"),
-            Quantity::FreeLength => ("l", " m"),
-            Quantity::Height => ("H", " m"),
-            Quantity::Deflection => ("|u|", " m"),
-            Quantity::Position => ("the number of earlier requests", ""),
+            ThresholdQuantity::Penetration => ("|R|/c", " m"),
+            ThresholdQuantity::Force => ("|R|", " N"),
+            ThresholdQuantity::ForceByWeight => ("|R|", " |m g|"),
+            ThresholdQuantity::PenetrationByHeight => ("|R|/c", " |H|"),
+            ThresholdQuantity::Gap => ("H − l", " m"),
+            ThresholdQuantity::Stiffness => ("c", " N/m"),
+            ThresholdQuantity::Mass => ("m", " kg"),
+            ThresholdQuantity::Gravity => ("g", " m/s²"),
+            ThresholdQuantity::FreeLength => ("l", " m"),
+            ThresholdQuantity::Height => ("H", " m"),
+            ThresholdQuantity::Deflection => ("|u|", " m"),
+            ThresholdQuantity::Position => ("the number of earlier requests", ""),
         }
     }
 
@@ -81,18 +81,18 @@ impl Quantity {
         let force = system::reaction(system).abs();
         let through = (structure::deflection(system) - system::gap(system)).abs();
         match self {
-            Quantity::Penetration => Some(through),
-            Quantity::Force => Some(force),
-            Quantity::ForceByWeight => relative(force, &system::weight(system)),
-            Quantity::PenetrationByHeight => relative(through, &system.h),
-            Quantity::Gap => Some(system::gap(system)),
-            Quantity::Stiffness => Some(system.c.clone()),
-            Quantity::Mass => Some(system.m.clone()),
-            Quantity::Gravity => Some(system.g.clone()),
-            Quantity::FreeLength => Some(system.l.clone()),
-            Quantity::Height => Some(system.h.clone()),
-            Quantity::Deflection => Some(answer.exact(0).abs()),
-            Quantity::Position => Some(Exact::from(answer.result.number as i32)),
+            ThresholdQuantity::Penetration => Some(through),
+            ThresholdQuantity::Force => Some(force),
+            ThresholdQuantity::ForceByWeight => relative(force, &system::weight(system)),
+            ThresholdQuantity::PenetrationByHeight => relative(through, &system.h),
+            ThresholdQuantity::Gap => Some(system::gap(system)),
+            ThresholdQuantity::Stiffness => Some(system.c.clone()),
+            ThresholdQuantity::Mass => Some(system.m.clone()),
+            ThresholdQuantity::Gravity => Some(system.g.clone()),
+            ThresholdQuantity::FreeLength => Some(system.l.clone()),
+            ThresholdQuantity::Height => Some(system.h.clone()),
+            ThresholdQuantity::Deflection => Some(answer.exact(0).abs()),
+            ThresholdQuantity::Position => Some(Exact::from(answer.result.number as i32)),
         }
     }
 }
@@ -103,11 +103,11 @@ fn relative(value: Exact, unit: &Exact) -> Option<Exact> {
 }
 
 #[cfg(feature = "serde")]
-crate::number::serialize_as_displayed!(Quantity);
+crate::number::serialize_as_displayed!(ThresholdQuantity);
 
 /// A condition that separates wrong answers from right ones: a state, a threshold, or both.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Condition {
+pub struct FailureCondition {
     /// The state of all systems with wrong answers, if the condition concerns this state alone.
     pub state: Option<State>,
     /// The threshold; `None` if all answers in the state are wrong, or the state is grazing.
@@ -118,7 +118,7 @@ pub struct Condition {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Threshold {
     /// The quantity.
-    pub quantity: Quantity,
+    pub quantity: ThresholdQuantity,
     /// Its value with a wrong answer that is closest to those with right ones.
     pub wrong: Exact,
     /// Its value with a right answer that is closest to those with wrong ones.
@@ -127,7 +127,7 @@ pub struct Threshold {
 
 /// Smallest number of combinations of systems whose answers could be wrong: it bounds the probability that a
 /// quantity separates one of them by chance, on either side, in one state or in both.
-const MIN_COMBINATIONS: usize = 1000 * Quantity::ALL.len() * 2 * 2;
+const MIN_COMBINATIONS: usize = 1000 * ThresholdQuantity::ALL.len() * 2 * 2;
 
 /// Returns the number of combinations of `chosen` out of `of` systems, at most [`MIN_COMBINATIONS`].
 pub(super) fn combinations(chosen: usize, of: usize) -> usize {
@@ -139,19 +139,19 @@ fn is_significant(wrong: &[&Observation], right: &[&Observation]) -> bool {
     combinations(wrong.len(), wrong.len() + right.len()) == MIN_COMBINATIONS
 }
 
-impl Condition {
+impl FailureCondition {
     /// Returns the conditions that separate wrong answers from right ones, those with the widest gap first.
     pub(super) fn separating(wrong: &[&Observation], right: &[&Observation]) -> Vec<Self> {
         // Floats may miss R = 0, so not all of these answers have to be wrong.
         let is_grazing = |answer: &&Observation| answer.assessment().exact.state == State::Grazing;
         if is_significant(wrong, right) && wrong.iter().all(is_grazing) {
-            return vec![Condition { state: Some(State::Grazing), threshold: None }];
+            return vec![FailureCondition { state: Some(State::Grazing), threshold: None }];
         }
         let found = Threshold::separating(wrong, right);
         if !found.is_empty() {
             return found
                 .into_iter()
-                .map(|found| Condition { state: None, threshold: Some(found) })
+                .map(|found| FailureCondition { state: None, threshold: Some(found) })
                 .collect();
         }
         // The state may be any one close to grazing.
@@ -162,10 +162,10 @@ impl Condition {
         let state = Some(first);
         let alike: Vec<_> = right.iter().copied().filter(|answer| answer.state == state).collect();
         if alike.is_empty() && is_significant(wrong, right) {
-            return vec![Condition { state, threshold: None }];
+            return vec![FailureCondition { state, threshold: None }];
         }
         let found = Threshold::separating(wrong, &alike).into_iter();
-        found.map(|found| Condition { state, threshold: Some(found) }).collect()
+        found.map(|found| FailureCondition { state, threshold: Some(found) }).collect()
     }
 }
 
@@ -187,13 +187,14 @@ impl Threshold {
         if !is_significant(wrong, right) || is_continuous(wrong, right) {
             return Vec::new();
         }
-        let found = Quantity::ALL.iter().filter_map(|quantity| Threshold::of(*quantity, wrong, right));
+        let found =
+            ThresholdQuantity::ALL.iter().filter_map(|quantity| Threshold::of(*quantity, wrong, right));
         let mut found: Vec<_> = found.collect();
         found.sort_by_key(|found| std::cmp::Reverse(found.gap()));
         found
     }
 
-    fn of(quantity: Quantity, wrong: &[&Observation], right: &[&Observation]) -> Option<Self> {
+    fn of(quantity: ThresholdQuantity, wrong: &[&Observation], right: &[&Observation]) -> Option<Self> {
         let (bad, good) = (quantity.values(wrong)?, quantity.values(right)?);
         let below = (bad.iter().max()?, good.iter().min()?);
         let above = (bad.iter().min()?, good.iter().max()?);

@@ -3,7 +3,7 @@
 use super::assessment::{ball, balls, fit, is_within, rounded, rounds_alike, scales, sizes};
 use super::problems::short;
 use super::program::{Constants, Results, right, value};
-use super::{Answer, Assessment, CaseResult, Problem, Reply, Value, Verdict};
+use super::{Answer, AnswerVerdict, Assessment, CaseResult, Problem, Reply, ReportedNumber};
 use crate::chapter::{SpringMass, system};
 use crate::number::{Ball, Exact, PositivePart, ToExact, Tree};
 use crate::solver::State;
@@ -70,7 +70,7 @@ impl<'a> Observation<'a> {
 
     /// Returns `true` if the answer is within the rounding error.
     pub fn is_right(&self) -> bool {
-        self.assessment().verdict == Verdict::Right
+        self.assessment().verdict == AnswerVerdict::Right
     }
 
     /// Returns the exact u (0) or N (1).
@@ -96,7 +96,7 @@ impl<'a> Observation<'a> {
     }
 
     /// Returns u and N.
-    pub fn numbers(&self) -> [&Value; 2] {
+    pub fn numbers(&self) -> [&ReportedNumber; 2] {
         [&self.answer.deflection, &self.answer.contact_force]
     }
 

@@ -270,9 +270,14 @@ fn names_agree_with_the_command_line_and_json() {
         assert_eq!(family.name().parse(), Ok(family));
     }
     assert_eq!("flat".parse::<Family>(), Err(UnknownFamily));
-    let verdicts = [Verdict::Right, Verdict::WithinTolerance, Verdict::Wrong, Verdict::TimedOut];
+    let verdicts =
+        [AnswerVerdict::Right, AnswerVerdict::WithinTolerance, AnswerVerdict::Wrong, AnswerVerdict::TimedOut];
     assert_eq!(verdicts.map(|it| it.to_string()), ["right", "within_tolerance", "wrong", "timed_out"]);
-    let quantities = [Quantity::Penetration, Quantity::ForceByWeight, Quantity::PenetrationByHeight];
+    let quantities = [
+        ThresholdQuantity::Penetration,
+        ThresholdQuantity::ForceByWeight,
+        ThresholdQuantity::PenetrationByHeight,
+    ];
     let names = ["penetration", "force_by_weight", "penetration_by_height"];
     assert_eq!(quantities.map(|it| it.to_string()), names);
     let answers = [DiagnosisScope::All, DiagnosisScope::Wrong, DiagnosisScope::Steps];

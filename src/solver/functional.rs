@@ -18,7 +18,7 @@ pub type DualEnclosure<T> = Dual<<T as Scalar>::Enclosure>;
 /// The first two and the last are those of the chapter, as corrected by note 3. [`solve_functional`] also
 /// requires the others: if the force of W decreases, there can be more than one equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Condition {
+pub enum FunctionalCondition {
     /// Condition 1: W(0) = 0.
     ZeroAtContact,
     /// Condition 2: W does not decrease with p.
@@ -31,14 +31,14 @@ pub enum Condition {
     UnboundedInPenalty,
 }
 
-impl fmt::Display for Condition {
+impl fmt::Display for FunctionalCondition {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.pad(match self {
-            Condition::ZeroAtContact => "must be 0 at p = 0",
-            Condition::Monotone => "must not decrease with p",
-            Condition::Continuous => "must be continuous in p",
-            Condition::Convex => "must be convex in p: its force must not decrease with p",
-            Condition::UnboundedInPenalty => "must be unbounded as its penalty grows",
+            FunctionalCondition::ZeroAtContact => "must be 0 at p = 0",
+            FunctionalCondition::Monotone => "must not decrease with p",
+            FunctionalCondition::Continuous => "must be continuous in p",
+            FunctionalCondition::Convex => "must be convex in p: its force must not decrease with p",
+            FunctionalCondition::UnboundedInPenalty => "must be unbounded as its penalty grows",
         })
     }
 }
@@ -54,13 +54,13 @@ pub enum FunctionalError {
     #[error("the penalty functional {condition}; violated at p = {at} m")]
     Broken {
         /// The condition.
-        condition: Condition,
+        condition: FunctionalCondition,
         /// Penetration at which it is violated, in m.
         at: String,
     },
 }
 
-pub(super) fn violation<T: Scalar>(condition: Condition, at: &T) -> FunctionalError {
+pub(super) fn violation<T: Scalar>(condition: FunctionalCondition, at: &T) -> FunctionalError {
     FunctionalError::Broken { condition, at: format!("{at:?}") }
 }
 
@@ -82,7 +82,7 @@ pub(super) fn violation<T: Scalar>(condition: Condition, at: &T) -> FunctionalEr
 /// ten thousand steps, which suffice if the functional is smooth near the root, and
 /// [`Direct`](Outcome::Direct) without iteration.
 ///
-/// The [conditions](Condition) ensure that there is one equilibrium, with the least energy. W(0) = 0 is
+/// The [conditions](FunctionalCondition) ensure that there is one equilibrium, with the least energy. W(0) = 0 is
 /// tested at 0, the others except the last at all sixteenths of R/c, and monotonicity at every evaluation of
 /// the search. A violation in between remains undetected. The last condition concerns a family of
 /// functionals: [`penalty_for_functional`] tests it.
@@ -236,13 +236,13 @@ pub fn penalty_for_functional<T: Scalar, const N: usize>(
             break;
         }
     }
-    Err(violation(Condition::UnboundedInPenalty, tolerance))
+    Err(violation(FunctionalCondition::UnboundedInPenalty, tolerance))
 }
 
 /// Returns an error unless W is finite and its enclosure contains 0.
 pub(super) fn check_vanishes<T: Scalar>(w: &T::Enclosure) -> Result<(), FunctionalError> {
     let holds = is_finite::<T>(w) && T::sign(w).is_none_or(Ordering::is_eq);
-    if holds { Ok(()) } else { Err(violation(Condition::ZeroAtContact, &T::zero())) }
+    if holds { Ok(()) } else { Err(violation(FunctionalCondition::ZeroAtContact, &T::zero())) }
 }
 
 pub(super) fn is_finite<T: Scalar>(x: &T::Enclosure) -> bool {

@@ -1,6 +1,6 @@
 //! Root of c p + W′(p) = R for any W, between two points with certain signs.
 
-use super::functional::{Condition, FunctionalError, check_vanishes, is_finite, violation};
+use super::functional::{FunctionalCondition, FunctionalError, check_vanishes, is_finite, violation};
 use super::scalar::power;
 use super::validate::SolveError;
 use super::{Interval, Scalar, to_interval};
@@ -70,7 +70,7 @@ impl<'a, E: PositivePart> PenaltyEquation<'a, E> {
     fn side<T: Scalar<Enclosure = E>>(&self, p: &T) -> Result<Side<T>, FunctionalError> {
         let force = self.energy_and_force(p).derivative;
         if T::sign(&force) == Some(Ordering::Less) {
-            return Err(violation(Condition::Monotone, p));
+            return Err(violation(FunctionalCondition::Monotone, p));
         }
         let residual = structure::residual(&self.spring, &p.enclose()) + force;
         if !is_finite::<T>(&residual) {
@@ -100,11 +100,11 @@ impl<'a, E: PositivePart> PenaltyEquation<'a, E> {
             let distance = p.enclose() - last.0.enclose();
             // The increase of a convex W is at most that for the last force, and at least that for the first.
             let conditions = [
-                (Condition::Monotone, w.derivative.clone()),
-                (Condition::Monotone, gained.clone()),
-                (Condition::Convex, &w.derivative - &last.1.derivative),
-                (Condition::Convex, &gained - &last.1.derivative * &distance),
-                (Condition::Continuous, &w.derivative * &distance - &gained),
+                (FunctionalCondition::Monotone, w.derivative.clone()),
+                (FunctionalCondition::Monotone, gained.clone()),
+                (FunctionalCondition::Convex, &w.derivative - &last.1.derivative),
+                (FunctionalCondition::Convex, &gained - &last.1.derivative * &distance),
+                (FunctionalCondition::Continuous, &w.derivative * &distance - &gained),
             ];
             // None of these is negative if the conditions hold.
             let mut violated = conditions.iter().filter(|(_, x)| T::sign(x) == Some(Ordering::Less));
@@ -127,7 +127,7 @@ impl<'a, E: PositivePart> PenaltyEquation<'a, E> {
             Side::Below(residual) => Endpoint { p: T::zero(), residual },
             Side::Root | Side::Above(_) => return Ok(RootBracket::point(T::zero())),
             Side::Undecided => return self.bracket_undecided(&T::zero(), &T::zero(), max),
-            Side::OutOfRange => return Err(violation(Condition::ZeroAtContact, &T::zero())),
+            Side::OutOfRange => return Err(violation(FunctionalCondition::ZeroAtContact, &T::zero())),
         };
         // An overflow occurs only beyond the root.
         let (mut p, mut overflow) = (max.clone(), max.clone());

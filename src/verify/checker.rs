@@ -4,7 +4,7 @@ use super::experiments::{Experiment, Trial};
 use super::{ClaimResult, Options, Status};
 use crate::claims::Case;
 use crate::eval::{
-    Balls, Domain, Evaluation, Failure, Instance, Quantity, Rationals, Test, UNFOLDED_MEMBERS, Value,
+    Balls, Decidable, Domain, Evaluation, Failure, Instance, Rationals, Test, UNFOLDED_MEMBERS, Value,
     Verdict, instances,
 };
 use crate::formula::statement::Role;
@@ -141,7 +141,7 @@ impl ClaimTally {
 }
 
 /// Number system in which claims are checked.
-pub(super) trait NumberDomain: Domain<Value: Quantity> + Sync {
+pub(super) trait NumberDomain: Domain<Value: Decidable> + Sync {
     /// Numbers of the experiments.
     type Number: Scalar + ToExact + Debug;
 

@@ -5,7 +5,7 @@ use crate::strategies::*;
 use spring_mass_contact::chapter::{beyond, contact, penalty};
 use spring_mass_contact::number::{Dual, Exponential, Field};
 use spring_mass_contact::solver::{
-    Condition, DualEnclosure, FunctionalError, penalty_for_functional, solve_functional,
+    DualEnclosure, FunctionalCondition, FunctionalError, penalty_for_functional, solve_functional,
 };
 use std::array;
 use std::cell::Cell;
@@ -282,7 +282,7 @@ fn a_tolerance_that_is_the_floor_is_not_met() {
 type Number = DualEnclosure<f64>;
 
 /// Returns the violated condition, and the penetration rounded to 32nds.
-fn refused(w: impl Fn(&Number, &Number) -> Number) -> (Condition, f64) {
+fn refused(w: impl Fn(&Number, &Number) -> Number) -> (FunctionalCondition, f64) {
     match solve_functional(&example(), &[8.0], &1e-9, |[eps], p| w(eps, p)) {
         Err(FunctionalError::Broken { condition, at }) => {
             (condition, (at.parse::<f64>().unwrap() * 32.0).round() / 32.0)
@@ -294,7 +294,7 @@ fn refused(w: impl Fn(&Number, &Number) -> Number) -> (Condition, f64) {
 /// Each condition is named, with a penetration at which it is violated. R/c = 1/2.
 #[test]
 fn violated_conditions_are_named() {
-    use Condition::*;
+    use FunctionalCondition::*;
     let w = penalty::functional::<Number>;
     let int = Number::int;
     let [nan, huge, large] = [f64::NAN, f64::MAX, 1e200].map(|x| Dual::constant(x.enclose()));

@@ -34,7 +34,7 @@ fn lagrange_meets_the_conditions() {
             let answer = solve(s, &Method::Lagrange).unwrap();
             assert_eq!((answer.state, answer.outcome), (state, Outcome::Direct));
             assert_eq!(state_for(&r), state, "the sign of R is planted");
-            assert!(answer.certificate(s).unwrap().is_zero());
+            assert!(answer.residuals(s).unwrap().is_zero());
             assert_eq!(answer.deflection, resting(s));
             assert_eq!(answer.contact_force, r.positive_part());
             assert_eq!(-&s.c * &answer.penetration, (-r).positive_part());
@@ -84,7 +84,7 @@ fn the_other_branch_violates_one_condition() {
 fn a_bilateral_plane_pulls_when_separated() {
     holds(separated(WIDE), |case| {
         let answer = solve_bilateral(&case.system, &Method::Lagrange).unwrap();
-        let kkt = answer.certificate(&case.system).unwrap();
+        let kkt = answer.residuals(&case.system).unwrap();
         assert_eq!(answer.state, State::Separated);
         assert_eq!((kkt.stationarity, kkt.primal, kkt.dual), (int(0), int(0), -case.reaction()));
     });
@@ -97,7 +97,7 @@ fn the_error_of_the_force_is_c_times_the_penetration() {
         let (c, r) = (&case.system.c, case.reaction());
         for (plane, method, answer) in case.solutions(*steps) {
             assert_eq!(c * &answer.penetration + &answer.contact_force, r, "{plane:?} {method:?}");
-            assert!(answer.certificate(&case.system).unwrap().stationarity.is_zero());
+            assert!(answer.residuals(&case.system).unwrap().stationarity.is_zero());
         }
         for step in planes::<Exact>().iter().flat_map(|(plane, _)| case.steps(*plane).take(8)) {
             assert_eq!(c * step.penetration + step.contact_force, r);
@@ -133,7 +133,7 @@ fn certificate_is_small<T: Float>(case: &Case<T>) {
     let of_force = |u: &Exact, n: &Exact| &eta * (&weight + (&s.c * u).abs() + n);
     let certified = |method: Method<T>| {
         let answer = solve(&case.system, &method).unwrap();
-        let kkt = answer.certificate(&case.system).unwrap();
+        let kkt = answer.residuals(&case.system).unwrap();
         assert_eq!(answer.state, state_for(&r));
         assert!(kkt.dual.is_zero());
         (kkt, exact(&answer.deflection), exact(&answer.contact_force))

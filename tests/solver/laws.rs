@@ -4,7 +4,7 @@ use crate::strategies::*;
 use num_traits::One;
 use spring_mass_contact::number::{Ball, Field};
 use spring_mass_contact::operators;
-use spring_mass_contact::solver::laws::{self, Law, LawViolation};
+use spring_mass_contact::solver::laws::{self, LawViolation, ScalarLaw};
 use std::cmp::Ordering;
 
 /// Neighbours, thirds, tiny and huge numbers, and powers of two near the limits of the range.
@@ -135,16 +135,16 @@ fn tried<const LAW: usize>() -> Result<(), LawViolation> {
 #[test]
 fn a_violated_law_is_named() {
     for (found, law) in [
-        (tried::<0>(), Law::Order),
-        (tried::<1>(), Law::Finite),
-        (tried::<2>(), Law::Enclose),
-        (tried::<3>(), Law::Interval),
-        (tried::<4>(), Law::Magnitude),
-        (tried::<5>(), Law::Sign),
-        (tried::<6>(), Law::Power),
-        (tried::<7>(), Law::SignOfSum),
-        (tried::<10>(), Law::Integer),
-        (tried::<11>(), Law::Integer),
+        (tried::<0>(), ScalarLaw::Order),
+        (tried::<1>(), ScalarLaw::Finite),
+        (tried::<2>(), ScalarLaw::Enclose),
+        (tried::<3>(), ScalarLaw::Interval),
+        (tried::<4>(), ScalarLaw::Magnitude),
+        (tried::<5>(), ScalarLaw::Sign),
+        (tried::<6>(), ScalarLaw::Power),
+        (tried::<7>(), ScalarLaw::SignOfSum),
+        (tried::<10>(), ScalarLaw::Integer),
+        (tried::<11>(), ScalarLaw::Integer),
     ] {
         assert_eq!(found.as_ref().map_err(|broken| broken.law), Err(law), "{found:?}");
     }
@@ -155,7 +155,7 @@ fn a_violated_law_is_named() {
 #[test]
 fn a_sum_that_cancels_is_tried() {
     let found = laws::check_scalar_laws(&[1.0, 1.0 / 3.0, 0.1].map(Breaks::<7>), |x| exact(&x.0));
-    assert_eq!(found.unwrap_err().law, Law::SignOfSum);
+    assert_eq!(found.unwrap_err().law, ScalarLaw::SignOfSum);
 }
 
 /// The message contains the result and the expected value. 1e100 is 1000000000000000015902891109759918…

@@ -245,7 +245,7 @@ fn every_function_rejects_an_invalid_system() {
         named(kth_iterate(system, &4.0, &0.0, 3, plane), name);
         named(series_penetration(system, &4.0, &[]), name);
         named(advise(system, &0.1), name);
-        named(solution.certificate(system), name);
+        named(solution.residuals(system), name);
         named(sweep(system, [4.0]).next().unwrap(), name);
     }
     for eps in [0.0, -4.0, nan, inf] {
@@ -285,7 +285,7 @@ fn every_function_rejects_an_invalid_system() {
         named(penalties(&int(from), &int(to), points), name);
     }
     solution.contact_force = nan;
-    named(solution.certificate(&good), "contact force");
+    named(solution.residuals(&good), "contact force");
     // Nor do texts of what is not finite.
     assert_eq!(Interval { lower: -inf, upper: inf }.texts(), ["-inf", "inf"]);
 }

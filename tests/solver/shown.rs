@@ -4,7 +4,7 @@ use crate::strategies::*;
 use spring_mass_contact::chapter::contact;
 use spring_mass_contact::number::{ExactText, ParseError};
 use spring_mass_contact::rug::Float as MpfrFloat;
-use spring_mass_contact::solver::{Condition, FunctionalError};
+use spring_mass_contact::solver::{FunctionalCondition, FunctionalError};
 
 /// Returns the enclosure in the line of a quantity, without the unit: `… to …`, or one number for both ends.
 fn enclosure(shown: &str, symbol: &str, name: &str) -> [Exact; 2] {
@@ -95,7 +95,8 @@ fn a_stagnation_reports_the_attained_penetration() {
 
 #[test]
 fn conditions_and_residuals_are_described_in_words() {
-    let broken = FunctionalError::Broken { condition: Condition::Continuous, at: "0.5".to_string() };
+    let broken =
+        FunctionalError::Broken { condition: FunctionalCondition::Continuous, at: "0.5".to_string() };
     assert_eq!(broken.to_string(), "the penalty functional must be continuous in p; violated at p = 0.5 m");
     let kkt = contact::kkt(&example(), &2.25, &1.0).to_string();
     assert_eq!(kkt, "stationarity 0 N, primal 0.25 m, dual 0 N, complementarity 0.25 J");

@@ -7,7 +7,9 @@ use crate::args::format_exact;
 use crate::output::record;
 use serde::Serialize;
 use serde_json::value::RawValue;
-use spring_mass_contact::check::{CaseResult, Condition, FamilyResult, Reply, Report, Threshold, Verdict};
+use spring_mass_contact::check::{
+    AnswerVerdict, CaseResult, FailureCondition, FamilyResult, Reply, Report, Threshold,
+};
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
 
@@ -44,11 +46,11 @@ fn family<'a>(row: &FamilyResult<'a>) -> impl Serialize + use<'a> {
         verdict: row.verdict,
         worst_deflection: error(&row.worst_deflection),
         worst_force: error(&row.worst_force),
-        counterexample: (row.verdict > Verdict::WithinTolerance).then(|| counterexample(row.worst)),
+        counterexample: (row.verdict > AnswerVerdict::WithinTolerance).then(|| counterexample(row.worst)),
     }
 }
 
-fn condition(condition: &Condition) -> impl Serialize + use<> {
+fn condition(condition: &FailureCondition) -> impl Serialize + use<> {
     record! {
         state: condition.state,
         threshold: condition.threshold.as_ref().map(threshold),

@@ -5,7 +5,7 @@ use crate::json::{self, Object};
 use crate::output::{shortened, shortened_to};
 use serde_json::value::RawValue;
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::check::{Answer, Reply, UsedParameters, Value};
+use spring_mass_contact::check::{Answer, Reply, ReportedNumber, UsedParameters};
 use spring_mass_contact::number::ParseError;
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -162,7 +162,7 @@ fn used(object: &Object, digits: &mut usize) -> Result<UsedParameters, String> {
     Ok(UsedParameters { system, penalty: optional(&object, "used.", "penalty", digits)? })
 }
 
-fn steps(object: &Object, digits: &mut usize) -> Result<Vec<[Value; 2]>, String> {
+fn steps(object: &Object, digits: &mut usize) -> Result<Vec<[ReportedNumber; 2]>, String> {
     let Some(steps) = non_null(object, "", "steps")? else { return Ok(Vec::new()) };
     let steps: Vec<Object> = serde_json::from_str(steps.get())
         .map_err(|_| refused(&json::text(steps), "steps", "must be an array of objects"))?;
@@ -174,22 +174,27 @@ fn steps(object: &Object, digits: &mut usize) -> Result<Vec<[Value; 2]>, String>
 }
 
 /// Returns the required numbers of an answer or a step.
-fn required_pair(object: &Object, within: &str, digits: &mut usize) -> Result<[Value; 2], String> {
+fn required_pair(object: &Object, within: &str, digits: &mut usize) -> Result<[ReportedNumber; 2], String> {
     let deflection = required(object, within, "deflection", digits)?;
     Ok([deflection, required(object, within, "contact_force", digits)?])
 }
 
-fn required(object: &Object, within: &str, key: &str, digits: &mut usize) -> Result<Value, String> {
+fn required(object: &Object, within: &str, key: &str, digits: &mut usize) -> Result<ReportedNumber, String> {
     let value = once(object, within, key)?.ok_or_else(|| format!("the key '{within}{key}' is missing"))?;
     number(value, within, key, digits)
 }
 
-fn optional(object: &Object, within: &str, key: &str, digits: &mut usize) -> Result<Option<Value>, String> {
+fn optional(
+    object: &Object,
+    within: &str,
+    key: &str,
+    digits: &mut usize,
+) -> Result<Option<ReportedNumber>, String> {
     non_null(object, within, key)?.map(|value| number(value, within, key, digits)).transpose()
 }
 
 /// Parses a number, whose digits are subtracted from those allowed. null counts as NaN.
-fn number(value: &RawValue, within: &str, key: &str, digits: &mut usize) -> Result<Value, String> {
+fn number(value: &RawValue, within: &str, key: &str, digits: &mut usize) -> Result<ReportedNumber, String> {
     let text = json::text(value);
     let text = text.trim();
     if value.get() == "null" || is_not_a_number(text) {

@@ -4,8 +4,8 @@ use crate::args::{Number, format_exact};
 use crate::lines::NO_BREAK_SPACE;
 use crate::output::{self, counted, shortened};
 use spring_mass_contact::check::{
-    Answer, CaseResult, Diagnosis, DiagnosisScope, FamilyResult, Quantity, Reply, Report, Threshold, Verdict,
-    VerdictCounts,
+    Answer, AnswerVerdict, CaseResult, Diagnosis, DiagnosisScope, FamilyResult, Reply, Report, Threshold,
+    ThresholdQuantity, VerdictCounts,
 };
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
@@ -29,7 +29,7 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &Nu
     writeln!(out)?;
     writeln!(out, " u relative to |H − l| + |m g / c|, N relative to |m g| + |c (H − l)|; right:")?;
     writeln!(out, " within the rounding error of f64; within: within the tolerance.")?;
-    let bad: Vec<_> = families.iter().filter(|row| row.verdict > Verdict::WithinTolerance).collect();
+    let bad: Vec<_> = families.iter().filter(|row| row.verdict > AnswerVerdict::WithinTolerance).collect();
     for row in bad.iter().take(MAX_EXAMPLES) {
         writeln!(out)?;
         example(out, row.worst)?;
@@ -87,13 +87,14 @@ const NAMES: [&str; 5] = ["family", "systems", "verdict", "u off by", "N off by"
 
 fn cells(row: &FamilyResult, within: &str) -> [String; 5] {
     let verdict = match row.verdict {
-        Verdict::WithinTolerance => within.to_string(),
-        Verdict::TimedOut => "not in time".to_string(),
-        verdict @ (Verdict::Right | Verdict::Refused | Verdict::Wrong | Verdict::Crashed) => {
-            verdict.to_string()
-        }
+        AnswerVerdict::WithinTolerance => within.to_string(),
+        AnswerVerdict::TimedOut => "not in time".to_string(),
+        verdict @ (AnswerVerdict::Right
+        | AnswerVerdict::Refused
+        | AnswerVerdict::Wrong
+        | AnswerVerdict::Crashed) => verdict.to_string(),
     };
-    let some = row.verdict > Verdict::WithinTolerance && row.count < row.cases;
+    let some = row.verdict > AnswerVerdict::WithinTolerance && row.count < row.cases;
     let of = if some { format!(": {} of {}", row.count, row.cases) } else { String::new() };
     let [u, n] = [&row.worst_deflection, &row.worst_force]
         .map(|error| error.as_ref().map_or(String::new(), upper_bound));
@@ -210,7 +211,7 @@ fn conditions(report: &Report) -> Option<String> {
 /// Says that wrong answers are explained by nothing, so that nobody waits for a diagnosis.
 fn unexplained(report: &Report) -> Option<String> {
     let is_wrong = |result: &CaseResult| {
-        result.assessment.verdict == Verdict::Wrong && matches!(result.reply, Reply::Answered(_))
+        result.assessment.verdict == AnswerVerdict::Wrong && matches!(result.reply, Reply::Answered(_))
     };
     let explained = report.fitting().next().is_some()
         || report.lag().is_some()
@@ -223,7 +224,7 @@ fn unexplained(report: &Report) -> Option<String> {
 /// Formats a threshold: `|R|/c up to 9.9e-7 m (right from 1.3e-6 m on)`.
 fn clause(threshold: &Threshold) -> String {
     let Threshold { quantity, wrong, right } = threshold;
-    let digits = if *quantity == Quantity::Position { VALUE_DIGITS } else { ERROR_DIGITS };
+    let digits = if *quantity == ThresholdQuantity::Position { VALUE_DIGITS } else { ERROR_DIGITS };
     let [round_wrong, round_right] = rounding(threshold);
     let [wrong, right] = [(wrong, round_wrong), (right, round_right)]
         .map(|(x, round)| unbroken(&(x.decimal(digits, round) + quantity.unit())));
@@ -260,7 +261,7 @@ fn tested(report: &Report, tolerance: &Number) -> String {
 /// Describes families without answers if they alone leave the result open.
 fn families_refused(report: &Report) -> Option<String> {
     let families = report.families();
-    let refused = families.iter().filter(|row| row.verdict == Verdict::Refused && row.right == 0);
+    let refused = families.iter().filter(|row| row.verdict == AnswerVerdict::Refused && row.right == 0);
     let names = Vec::from_iter(refused.map(|row| row.family.name()));
     let names = names.join(", ");
     (!names.is_empty()).then(|| format!("Every system of {names} was refused, so its result is unknown."))

@@ -59,9 +59,9 @@ impl<T: Real + ToExact> Domain for Floats<T> {
 /// Exact numbers, except that floats compute what is below a rounding. A number that depends on a float out of
 /// range, or is undefined, is unknown.
 #[derive(Debug)]
-pub struct Computed<'a, T: Real + ToExact, S>(pub Evaluation<'a, &'a Floats<T>, S>);
+pub struct RoundedRationals<'a, T: Real + ToExact, S>(pub Evaluation<'a, &'a Floats<T>, S>);
 
-impl<T: Real + ToExact, S: Fn(&'static str) -> Option<T>> Domain for Computed<'_, T, S> {
+impl<T: Real + ToExact, S: Fn(&'static str) -> Option<T>> Domain for RoundedRationals<'_, T, S> {
     type Value = Value;
 
     fn rounded(&self, place: usize) -> Option<Value> {

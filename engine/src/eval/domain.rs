@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use std::fmt;
 
 /// Knowledge of a number, which decides statements.
-pub trait Quantity {
+pub trait Decidable {
     /// Returns the sign of the number if it is certain.
     fn sign(&self) -> Option<Ordering>;
 
@@ -99,7 +99,7 @@ impl Value {
     }
 }
 
-impl Quantity for Value {
+impl Decidable for Value {
     fn sign(&self) -> Option<Ordering> {
         match self {
             Value::Exact(x) => Some(x.cmp(&Exact::zero())),
@@ -190,7 +190,7 @@ impl<T: Real + Exponential> Domain for Balls<T> {
     }
 }
 
-impl<T: Real + Exponential> Quantity for Ball<T> {
+impl<T: Real + Exponential> Decidable for Ball<T> {
     fn sign(&self) -> Option<Ordering> {
         Ball::sign(self)
     }

@@ -1,6 +1,6 @@
 //! The meaning of a statement for numbers.
 
-use super::domain::{Domain, Quantity, Rationals, Value};
+use super::domain::{Decidable, Domain, Rationals, Value};
 use super::germ::{Germ, Germs, Tendency, vanishes};
 use super::sample::Point;
 use crate::formula::claim::{MEMBERS, POWER, PRECISION};
@@ -267,7 +267,7 @@ impl<'a, D: Domain, S: Fn(&'static str) -> D::Value> Evaluation<'a, D, S> {
     }
 }
 
-impl<D: Domain<Value: Quantity>, S: Fn(&'static str) -> D::Value> Evaluation<'_, D, S> {
+impl<D: Domain<Value: Decidable>, S: Fn(&'static str) -> D::Value> Evaluation<'_, D, S> {
     /// Returns the verdict of all tests, each with its part of the claim: the first failure, if there is one.
     /// Without tests it is undecided.
     pub fn verdict<'t>(
@@ -288,9 +288,9 @@ impl<D: Domain<Value: Quantity>, S: Fn(&'static str) -> D::Value> Evaluation<'_,
     /// Returns whether a test holds, or its failure; `None` if this cannot be decided.
     pub fn outcome(&self, test: &Test) -> Outcome<D::Value> {
         match test {
-            Test::Equal(sides) => self.compared(sides, Quantity::is_equal, Failure::Unequal),
+            Test::Equal(sides) => self.compared(sides, Decidable::is_equal, Failure::Unequal),
             Test::Within { of, bound } => {
-                self.compared(&[*of, *bound], Quantity::is_within, Failure::BoundExceeded)
+                self.compared(&[*of, *bound], Decidable::is_within, Failure::BoundExceeded)
             }
             Test::Sign(relation, of) => match self.at(*of) {
                 Some(value) if value.admits(*relation)? => Some(Ok(())),

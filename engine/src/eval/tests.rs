@@ -115,7 +115,7 @@ fn floats_compute_what_is_below_a_rounding() {
     let exact = |formula: &Tree| {
         let mut program = Program::default();
         let place = program.add(formula);
-        let computed = Computed(Evaluation::of(&program, &floats, number));
+        let computed = RoundedRationals(Evaluation::of(&program, &floats, number));
         let evaluation = Evaluation::of(&program, &computed, symbol);
         evaluation.at(place).expect("never undefined").exact().cloned()
     };

@@ -1,7 +1,7 @@
 //! Properties of `contact check` for arbitrary answers of a program.
 
 use crate::bytes::Bytes;
-use spring_mass_contact::check::{Answer, Family, Problem, Reply, Verdict, check, problems};
+use spring_mass_contact::check::{Answer, AnswerVerdict, Family, Problem, Reply, check, problems};
 use spring_mass_contact_cli::reply;
 use std::convert::Infallible;
 use std::sync::LazyLock;
@@ -145,10 +145,10 @@ pub fn read(bytes: &[u8]) {
     for checked in &report.results {
         let verdict = checked.assessment.verdict;
         let fits = match &reply {
-            Reply::Answered(answer) if no_number(answer) => verdict == Verdict::Wrong,
-            Reply::Answered(_) => verdict <= Verdict::Wrong,
-            Reply::Refused(_) => verdict == Verdict::Refused,
-            _ => verdict >= Verdict::Wrong,
+            Reply::Answered(answer) if no_number(answer) => verdict == AnswerVerdict::Wrong,
+            Reply::Answered(_) => verdict <= AnswerVerdict::Wrong,
+            Reply::Refused(_) => verdict == AnswerVerdict::Refused,
+            _ => verdict >= AnswerVerdict::Wrong,
         };
         assert!(fits, "{reply:?} is {verdict:?}");
     }

@@ -175,11 +175,11 @@ fn a_tolerance_of_the_program_is_located() {
         |system: &SpringMass<Exact>| system::reaction(system).abs() / system::weight(system).abs();
     let by_height = |system: &SpringMass<Exact>| system::reaction(system).abs() / &system.c / system.h.abs();
     type Of<'a> = &'a dyn Fn(&SpringMass<Exact>) -> Exact;
-    let quantities: [(Quantity, &str, Of); 4] = [
-        (Quantity::Penetration, "1e-6", &penetration),
-        (Quantity::Force, "1e-2", &|system| system::reaction(system).abs()),
-        (Quantity::ForceByWeight, "1e-3", &by_weight),
-        (Quantity::PenetrationByHeight, "1e-3", &by_height),
+    let quantities: [(ThresholdQuantity, &str, Of); 4] = [
+        (ThresholdQuantity::Penetration, "1e-6", &penetration),
+        (ThresholdQuantity::Force, "1e-2", &|system| system::reaction(system).abs()),
+        (ThresholdQuantity::ForceByWeight, "1e-3", &by_weight),
+        (ThresholdQuantity::PenetrationByHeight, "1e-3", &by_height),
     ];
     let states = [(State::Contact, "the plane never acts"), (State::Separated, "the plane always acts")];
     for ((quantity, most, of), (state, name)) in
@@ -198,17 +198,23 @@ fn a_tolerance_of_the_program_is_located() {
 fn a_state_or_a_parameter_separates_wrong_answers() {
     let apart = changed(|_, u, n| if n.is_zero() { [u + number("1e-3"), n] } else { [u, n] });
     assert_eq!(names(&apart), ["u is 0.001 m too large"]);
-    let condition = Condition { state: Some(State::Separated), threshold: None };
+    let condition = FailureCondition { state: Some(State::Separated), threshold: None };
     assert_eq!(apart.conditions, [condition]);
     let heavy =
         changed(|problem, u, n| [u, if problem.system.m > number("50") { n * number("1.01") } else { n }]);
     assert_eq!(names(&heavy), ["N is 1.01 times the right value"]);
     let found: Vec<_> = heavy.conditions.iter().filter_map(|found| found.threshold.as_ref()).collect();
-    assert!(found.iter().any(|found| found.quantity == Quantity::Mass && !found.is_below()), "{found:?}");
+    assert!(
+        found.iter().any(|found| found.quantity == ThresholdQuantity::Mass && !found.is_below()),
+        "{found:?}"
+    );
     let huge =
         changed(|problem, u, n| [u, if problem.system.m > number("1000") { n * number("1.001") } else { n }]);
     let found: Vec<_> = huge.conditions.iter().filter_map(|found| found.threshold.as_ref()).collect();
-    assert!(found.iter().any(|found| found.quantity == Quantity::Mass && !found.is_below()), "{found:?}");
+    assert!(
+        found.iter().any(|found| found.quantity == ThresholdQuantity::Mass && !found.is_below()),
+        "{found:?}"
+    );
     assert!(huge.disregarded > 0, "without contact a factor of N changes nothing");
     // No quantity separates some answers: a decision is still named.
     let wrong =
@@ -231,7 +237,7 @@ fn an_answer_without_force_is_located() {
         let floats = problem.system.try_map(Exact::to_f64).unwrap();
         if system::reaction(&floats) == 0.0 { Answer::default() } else { right(problem) }
     });
-    assert_eq!(report.conditions, [Condition { state: Some(State::Grazing), threshold: None }]);
+    assert_eq!(report.conditions, [FailureCondition { state: Some(State::Grazing), threshold: None }]);
 }
 
 /// The error of N by the factor 1 + 0.001 H grows from below the tolerance to above it.
@@ -249,7 +255,7 @@ fn a_threshold_is_that_of_the_nearest_systems() {
         let report =
             changed_in(problems, |problem, u, n| [u, if is_wrong(problem) { n + number("1") } else { n }]);
         let mut found = report.conditions.into_iter().filter_map(|found| found.threshold);
-        found.find(|found| found.quantity == Quantity::Mass)
+        found.find(|found| found.quantity == ThresholdQuantity::Mass)
     };
     let mut problems = problems(1, 20, &[Family::Contact, Family::Separated]);
     let is_heavy = |problem: &Problem| problem.system.m > number("5");
@@ -257,7 +263,7 @@ fn a_threshold_is_that_of_the_nearest_systems() {
     let mass = |problem: &&Problem| problem.system.m.clone();
     let (least, most) = (heavy.iter().map(mass).min().unwrap(), light.iter().map(mass).max().unwrap());
     let expected = |[wrong, right]: [&Exact; 2]| {
-        Some(Threshold { quantity: Quantity::Mass, wrong: wrong.clone(), right: right.clone() })
+        Some(Threshold { quantity: ThresholdQuantity::Mass, wrong: wrong.clone(), right: right.clone() })
     };
     assert_eq!(threshold_of_mass(&problems, &is_heavy), expected([&least, &most]));
     assert_eq!(threshold_of_mass(&problems, &|problem| !is_heavy(problem)), expected([&most, &least]));
@@ -339,7 +345,7 @@ fn two_wrong_answers_of_many_show_no_condition() {
     assert!(conditions(2).is_empty());
     let found = conditions(3);
     assert!(
-        found.iter().any(|found| found.threshold.as_ref().unwrap().quantity == Quantity::Mass),
+        found.iter().any(|found| found.threshold.as_ref().unwrap().quantity == ThresholdQuantity::Mass),
         "{found:?}"
     );
 }
@@ -348,7 +354,7 @@ fn two_wrong_answers_of_many_show_no_condition() {
 fn the_gap_of_a_condition_is_relative_to_its_larger_value() {
     let gap = |wrong: &str, right: &str| {
         let [wrong, right] = [wrong, right].map(number);
-        Threshold { quantity: Quantity::Mass, wrong, right }.gap()
+        Threshold { quantity: ThresholdQuantity::Mass, wrong, right }.gap()
     };
     let gaps = [gap("1", "4"), gap("4", "1"), gap("-4", "-1"), gap("-1", "4"), gap("2", "4")];
     assert_eq!(gaps, ["3/4", "3/4", "3/4", "5/4", "1/2"].map(number));
@@ -511,7 +517,7 @@ fn a_lagging_force_is_distinguished() {
     };
     // The force does not lag, belongs to no step, does not lag at first, or in one system.
     changed_steps(&|problem, answer| *answer = steps(problem, false));
-    let other = |[_, n]: &mut [Value; 2]| *n = n.take().map(|n| n * number("2") + number("1"));
+    let other = |[_, n]: &mut [ReportedNumber; 2]| *n = n.take().map(|n| n * number("2") + number("1"));
     changed_steps(&|_, answer| answer.steps.iter_mut().for_each(other));
     changed_steps(&|problem, answer| answer.steps[..2].clone_from_slice(&steps(problem, false).steps[..2]));
     changed_steps(&|problem, answer| *answer = steps(problem, problem.id != "contact-2"));

@@ -32,7 +32,7 @@ fn a_missing_number_agrees_with_a_missing_number() {
     let problem = problem("own", Family::Contact, ["4", "1", "10", "0", "1"]);
     let exact = problem.solution();
     let divided = always(&c / &l, Tree::from(6));
-    let agreement = |deflection: Value| {
+    let agreement = |deflection: ReportedNumber| {
         let answer = Answer { deflection, ..Answer::new(Exact::zero(), exact.contact_force.clone()) };
         observed(&problem, answer, |answer| answer.agreement(&divided, None, &number(TOLERANCE)))
     };

@@ -46,7 +46,14 @@ fn assert_rounded_once_is_right(problem: &Problem) {
         [exact.deflection, exact.penetration, exact.contact_force].map(|x| x.to_f64().unwrap().to_string());
     let answer = Answer { penetration: Some(Some(number(&p))), ..Answer::new(number(&u), number(&n)) };
     let judged = assess(problem, answer, "1e-30");
-    assert_eq!(judged.verdict, Verdict::Right, "{}, {:?}: {:?}", problem.id, problem.penalty, judged.finding);
+    assert_eq!(
+        judged.verdict,
+        AnswerVerdict::Right,
+        "{}, {:?}: {:?}",
+        problem.id,
+        problem.penalty,
+        judged.finding
+    );
 }
 
 /// An error equal to the tolerance is accepted, a slightly larger one is not: u and N each on its own scale.
@@ -57,13 +64,13 @@ fn the_tolerance_is_the_border() {
     let [gap, weight] = [system::gap(&problem.system), system::weight(&problem.system)];
     let scales = [&gap + &weight / c, &weight + c * &gap];
     for (i, factor, verdict) in [
-        (0, "1", Verdict::WithinTolerance),
-        (0, "-1", Verdict::WithinTolerance),
-        (0, "1.0000001", Verdict::Wrong),
-        (0, "-1.0000001", Verdict::Wrong),
-        (1, "1", Verdict::WithinTolerance),
-        (1, "1.0000001", Verdict::Wrong),
-        (1, "-1.0000001", Verdict::Wrong),
+        (0, "1", AnswerVerdict::WithinTolerance),
+        (0, "-1", AnswerVerdict::WithinTolerance),
+        (0, "1.0000001", AnswerVerdict::Wrong),
+        (0, "-1.0000001", AnswerVerdict::Wrong),
+        (1, "1", AnswerVerdict::WithinTolerance),
+        (1, "1.0000001", AnswerVerdict::Wrong),
+        (1, "-1.0000001", AnswerVerdict::Wrong),
     ] {
         let mut answer = right(problem);
         let number_of = if i == 0 { &mut answer.deflection } else { &mut answer.contact_force };
@@ -87,8 +94,8 @@ fn a_penetration_is_that_of_the_deflection() {
         let answer = Answer { penetration: Some(Some(said)), ..exact };
         assess(problem, answer, TOLERANCE).verdict
     };
-    assert_eq!(["0", "1", "-1"].map(verdict), [Verdict::Right; 3]);
-    assert_eq!(["1.01", "-1.01"].map(verdict), [Verdict::Wrong; 2]);
+    assert_eq!(["0", "1", "-1"].map(verdict), [AnswerVerdict::Right; 3]);
+    assert_eq!(["1.01", "-1.01"].map(verdict), [AnswerVerdict::Wrong; 2]);
     // If the error of u is the tolerance, so is that of the penetration.
     let [u, n] = [
         right(problem).deflection.unwrap() + number(TOLERANCE) * &scale,
@@ -99,7 +106,7 @@ fn a_penetration_is_that_of_the_deflection() {
         let answer = Answer { penetration: Some(Some(p)), ..Answer::new(u.clone(), n.clone()) };
         assess(problem, answer, TOLERANCE).verdict
     };
-    assert_eq!([said(own.clone()), said(-own)], [Verdict::WithinTolerance, Verdict::Wrong]);
+    assert_eq!([said(own.clone()), said(-own)], [AnswerVerdict::WithinTolerance, AnswerVerdict::Wrong]);
 }
 
 /// The plane counts as active if |N| exceeds the tolerance; another state is wrong if the error of N exceeds
@@ -114,7 +121,7 @@ fn a_wrong_state_is_reported_if_it_matters() {
         let u = right(problem).deflection.unwrap() + number("1");
         let answer = Answer::new(u, number(parts) * number(TOLERANCE) * scale);
         let assessment = assess(problem, answer, TOLERANCE);
-        assert_eq!(assessment.verdict, Verdict::Wrong);
+        assert_eq!(assessment.verdict, AnswerVerdict::Wrong);
         assessment.finding.unwrap_or_default()
     };
     let in_contact = |parts| finding(Family::Contact, parts);
@@ -143,7 +150,7 @@ fn the_penalty_that_was_used_is_the_one_that_counts() {
     let answer = right_with(&problem, "1.0000005");
     let assessment = |answer: Answer| assess(&problem, answer, TOLERANCE);
     let judged = assessment(answer.clone());
-    assert_eq!((judged.verdict, judged.force_error), (Verdict::Right, Some(Exact::zero())));
+    assert_eq!((judged.verdict, judged.force_error), (AnswerVerdict::Right, Some(Exact::zero())));
     let [u, n] = [answer.deflection.as_ref().unwrap(), answer.contact_force.as_ref().unwrap()];
     assert_eq!(judged.kkt, Some(contact::kkt(&problem.system, u, n)));
     assert_eq!(assessment(Answer { deflection: None, ..answer.clone() }).kkt, None);
@@ -161,7 +168,7 @@ fn findings_describe_the_error() {
     };
     let wrong = |change: &dyn Fn(&mut Answer), text: &str| {
         let (verdict, finding) = finding(change);
-        assert!(verdict == Verdict::Wrong && finding.contains(text), "{verdict}: {finding}");
+        assert!(verdict == AnswerVerdict::Wrong && finding.contains(text), "{verdict}: {finding}");
     };
     // Just beyond the tolerance.
     let more = |x: &Exact| Some(Some(x * number("1.0000011")));
@@ -193,7 +200,7 @@ fn findings_describe_the_error() {
     let assessment = assess(problem, none, "2");
     assert_eq!(assessment.finding.as_deref(), Some("it used stiffness = 0 instead of 30"));
     let same = finding(&|answer| answer.used.system.c = Some(Some(system.c.clone())));
-    assert_eq!(same, (Verdict::Right, String::new()));
+    assert_eq!(same, (AnswerVerdict::Right, String::new()));
 }
 
 /// Rounding to single precision changes the gap H − l; the answer is assessed with the parameters used.
@@ -252,7 +259,7 @@ fn every_reply_is_counted() {
         VerdictCounts { right: 1, within_tolerance: 1, wrong: 1, refused: 1, crashed: 1, timed_out: 1 };
     assert_eq!(report.summary(), one_each);
     let worst = &report.families()[0];
-    assert_eq!((worst.verdict, worst.count, worst.cases), (Verdict::Crashed, 1, 6));
+    assert_eq!((worst.verdict, worst.count, worst.cases), (AnswerVerdict::Crashed, 1, 6));
     assert_eq!(worst.worst.problem.id, "stiff-5");
     // A wrong answer alone, a refusal with a right answer, and a refusal alone.
     let holds = |of: &[usize]| judged(&of.iter().map(|i| all[*i].clone()).collect::<Vec<_>>()).holds();
@@ -295,8 +302,11 @@ fn nothing_can_be_measured_by_nothing() {
     let [c, m] = ["5", "3"].map(number);
     let system = SpringMass { c, m, g: Exact::zero(), l: number("2"), h: number("2") };
     let problem = Problem { system, ..problems(1, 1, &[Family::Contact]).remove(0) };
-    for (u, verdict) in [("0", Verdict::Right), ("1e-6", Verdict::WithinTolerance), ("2e-6", Verdict::Wrong)]
-    {
+    for (u, verdict) in [
+        ("0", AnswerVerdict::Right),
+        ("1e-6", AnswerVerdict::WithinTolerance),
+        ("2e-6", AnswerVerdict::Wrong),
+    ] {
         let report = run(std::slice::from_ref(&problem), |_| Answer::new(number(u), Exact::zero()));
         assert_eq!(report.results[0].assessment.verdict, verdict, "{u}");
     }
@@ -306,7 +316,7 @@ fn nothing_can_be_measured_by_nothing() {
 #[test]
 fn an_overflowing_mistake_explains_no_answer() {
     let problem = Problem { penalty: Some(number("1e305")), ..problems(1, 1, &[Family::Huge]).remove(0) };
-    for (off, verdict) in [("1", Verdict::Right), ("1.1", Verdict::Wrong)] {
+    for (off, verdict) in [("1", AnswerVerdict::Right), ("1.1", AnswerVerdict::Wrong)] {
         let mut answer = right(&problem);
         answer.deflection = answer.deflection.map(|u| u * number(off));
         let assessment = assess(&problem, answer, TOLERANCE);
@@ -325,7 +335,7 @@ fn the_allowed_rounding_error_is_stated() {
     let mut answer = right(&problem);
     answer.contact_force = answer.contact_force.map(|n| n + number("1000"));
     let assessment = assess(&problem, answer, TOLERANCE);
-    assert_eq!(assessment.verdict, Verdict::Wrong);
+    assert_eq!(assessment.verdict, AnswerVerdict::Wrong);
     assert_eq!(assessment.finding.as_deref(), Some("within the rounding error of f64"));
 }
 
@@ -372,7 +382,7 @@ fn an_error_that_rounding_explains_is_at_most_that_of_a_diagnosis() {
     let is_wrong = |error: &str| {
         let answer = Answer::new(number("1") + number("3") * number(error), number("1"));
         let judged = assess(&problem, answer, "1e-30");
-        judged.verdict == Verdict::Wrong
+        judged.verdict == AnswerVerdict::Wrong
     };
     assert_eq!(["1e-6", "1.0000001e-6"].map(is_wrong), [false, true]);
 }
@@ -382,8 +392,8 @@ fn an_error_that_rounding_explains_is_at_most_that_of_a_diagnosis() {
 fn a_parameter_is_taken_up_to_the_tolerance() {
     let problem = with_penalties(problems(1, 1, &[Family::Contact])).remove(0);
     let verdict = |factor: &str| assess(&problem, right_with(&problem, factor), TOLERANCE).verdict;
-    assert_eq!(["0.999999", "1.000001"].map(verdict), [Verdict::Right; 2]);
-    assert!(["0.9999989", "1.0000011"].map(verdict).iter().all(|verdict| *verdict != Verdict::Right));
+    assert_eq!(["0.999999", "1.000001"].map(verdict), [AnswerVerdict::Right; 2]);
+    assert!(["0.9999989", "1.0000011"].map(verdict).iter().all(|verdict| *verdict != AnswerVerdict::Right));
 }
 
 /// All are counted; beside the first thousand only the first wrong one is kept.
@@ -397,6 +407,6 @@ fn results_are_kept_in_bounded_memory() {
     });
     assert_eq!((report.results.len(), report.cases()), (1001, 1100));
     let row = &report.families()[0];
-    assert_eq!((row.cases, row.verdict, row.count, row.right), (1100, Verdict::Wrong, 2, 1098));
+    assert_eq!((row.cases, row.verdict, row.count, row.right), (1100, AnswerVerdict::Wrong, 2, 1098));
     assert_eq!((row.worst.problem.id.as_str(), row.worst.number), ("contact-1050", 1049));
 }

@@ -8,7 +8,7 @@ use rug::float::Round;
 
 /// A law of [`Scalar`], named after the method concerned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Law {
+pub enum ScalarLaw {
     /// [`int`](Field::int) is exact up to 2²⁴, in scalars and in enclosures.
     Integer,
     /// Numbers compare as their values do, only 0 is zero, and ⟨·⟩, min and |·| are exact.
@@ -34,7 +34,7 @@ pub enum Law {
 #[error("the law {law:?} is violated: {counterexample}")]
 pub struct LawViolation {
     /// The law.
-    pub law: Law,
+    pub law: ScalarLaw,
     /// The operation with its operands, its result and the expected result.
     pub counterexample: String,
 }
@@ -91,26 +91,30 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
     fn of_integers(&self) -> Result<(), LawViolation> {
         for n in [-16_777_216, 0, 1, 2, 3, 16_777_215] {
             let right = Exact::int(n);
-            self.is(&T::int(n), &right, Law::Integer, || format!("the integer {n}"))?;
-            self.encloses(&E::int(n), &right, Law::Integer, || format!("the enclosure of {n}"))?;
+            self.is(&T::int(n), &right, ScalarLaw::Integer, || format!("the integer {n}"))?;
+            self.encloses(&E::int(n), &right, ScalarLaw::Integer, || format!("the enclosure of {n}"))?;
         }
         Ok(())
     }
 
     fn of_one(&self, a: &Sample<T>) -> Result<(), LawViolation> {
         let Sample { number, exact } = a;
-        hold(number.is_finite(), Law::Finite, || format!("{number:?}, which is {}", written(exact)))?;
+        hold(number.is_finite(), ScalarLaw::Finite, || format!("{number:?}, which is {}", written(exact)))?;
         let (zero, right) = (number.is_zero(), exact.is_zero());
-        hold(zero == right, Law::Order, || format!("is_zero of {number:?}: {zero}, expected {right}"))?;
-        self.is(&number.positive_part(), &exact.positive_part(), Law::Order, || {
+        hold(zero == right, ScalarLaw::Order, || format!("is_zero of {number:?}: {zero}, expected {right}"))?;
+        self.is(&number.positive_part(), &exact.positive_part(), ScalarLaw::Order, || {
             format!("⟨·⟩ of {number:?}")
         })?;
-        self.is(&number.abs(), &exact.abs(), Law::Order, || format!("|·| of {number:?}"))?;
-        self.encloses(&number.enclose(), exact, Law::Enclose, || format!("the enclosure of {number:?}"))?;
+        self.is(&number.abs(), &exact.abs(), ScalarLaw::Order, || format!("|·| of {number:?}"))?;
+        self.encloses(&number.enclose(), exact, ScalarLaw::Enclose, || {
+            format!("the enclosure of {number:?}")
+        })?;
         let mut product = Exact::one();
         for k in 0..=9 {
             if let Some(power) = T::power(&number.enclose(), k) {
-                self.encloses(&power, &product, Law::Power, || format!("{number:?} to the power of {k}"))?;
+                self.encloses(&power, &product, ScalarLaw::Power, || {
+                    format!("{number:?} to the power of {k}")
+                })?;
             }
             product = product * exact;
         }
@@ -120,10 +124,12 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
     fn of_two(&self, a: &Sample<T>, b: &Sample<T>) -> Result<(), LawViolation> {
         let (x, y) = (a.number, b.number);
         let (order, right) = (x.partial_cmp(y), a.exact.cmp(&b.exact));
-        hold(order == Some(right), Law::Order, || {
+        hold(order == Some(right), ScalarLaw::Order, || {
             format!("{x:?} compared with {y:?}: {order:?}, expected {right:?}")
         })?;
-        self.is(&x.min(y), &PositivePart::min(&a.exact, &b.exact), Law::Order, || format!("{x:?} min {y:?}"))
+        self.is(&x.min(y), &PositivePart::min(&a.exact, &b.exact), ScalarLaw::Order, || {
+            format!("{x:?} min {y:?}")
+        })
     }
 
     fn of_three(&self, a: &Sample<T>, b: &Sample<T>, c: &Sample<T>) -> Result<(), LawViolation> {
@@ -132,7 +138,7 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
         let enclosed = results(&numbers.map(T::enclose), divisors);
         let exact = results(&[&a.exact, &b.exact, &c.exact].map(Exact::clone), divisors);
         for ((what, enclosure), (_, exact)) in enclosed.iter().zip(&exact) {
-            self.encloses(enclosure, exact, Law::Interval, || {
+            self.encloses(enclosure, exact, ScalarLaw::Interval, || {
                 let [a, b, c] = numbers;
                 format!("{what} with a = {a:?}, b = {b:?}, c = {c:?}")
             })?;
@@ -148,7 +154,7 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
             let [first, second] = plus.map(|(x, y)| &x.exact * &y.exact);
             let right = (first + second).cmp(&taken);
             let found = T::sign_of_sum(plus.map(|(x, y)| (x.number, y.number)), last);
-            hold(found == right, Law::SignOfSum, || {
+            hold(found == right, ScalarLaw::SignOfSum, || {
                 let [(a, b), (c, d)] = plus.map(|(x, y)| (x.number, y.number));
                 let (e, f) = last;
                 format!("{a:?} · {b:?} + {c:?} · {d:?} − {e:?} · {f:?}: {found:?}, expected {right:?}")
@@ -157,7 +163,13 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
         Ok(())
     }
 
-    fn is(&self, found: &T, right: &Exact, law: Law, by: impl Fn() -> String) -> Result<(), LawViolation> {
+    fn is(
+        &self,
+        found: &T,
+        right: &Exact,
+        law: ScalarLaw,
+        by: impl Fn() -> String,
+    ) -> Result<(), LawViolation> {
         hold((self.exact)(found) == *right, law, || {
             format!("{}: {found:?}, expected {}", by(), written(right))
         })
@@ -167,7 +179,7 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
         &self,
         enclosure: &T::Enclosure,
         x: &Exact,
-        law: Law,
+        law: ScalarLaw,
         by: impl Fn() -> String,
     ) -> Result<(), LawViolation> {
         let Interval { lower, upper } = T::interval(enclosure);
@@ -177,9 +189,9 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
             && self.finite_value(&upper).is_none_or(|upper| *x <= upper);
         hold(within, law, || with(format!("between {lower:?} and {upper:?}")))?;
         let is_bounded = self.finite_value(&magnitude).is_none_or(|magnitude| x.abs() <= magnitude);
-        hold(is_bounded, Law::Magnitude, || with(format!("magnitude {magnitude:?}")))?;
+        hold(is_bounded, ScalarLaw::Magnitude, || with(format!("magnitude {magnitude:?}")))?;
         let (sign, right) = (T::sign(enclosure), x.cmp(&Exact::zero()));
-        hold(sign.is_none_or(|sign| sign == right), Law::Sign, || with(format!("sign {sign:?}")))
+        hold(sign.is_none_or(|sign| sign == right), ScalarLaw::Sign, || with(format!("sign {sign:?}")))
     }
 
     /// Returns the value of a bound; `None` if it is not finite and so violates no law.
@@ -214,7 +226,7 @@ fn written(x: &Exact) -> String {
     x.decimal(30, Round::Nearest)
 }
 
-fn hold(holds: bool, law: Law, by: impl Fn() -> String) -> Result<(), LawViolation> {
+fn hold(holds: bool, law: ScalarLaw, by: impl Fn() -> String) -> Result<(), LawViolation> {
     if holds { Ok(()) } else { Err(LawViolation { law, counterexample: by() }) }
 }
 

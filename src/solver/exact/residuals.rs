@@ -20,10 +20,10 @@ impl<T: Scalar + ToExact> Solution<T> {
     /// ```
     /// # use spring_mass_contact::{chapter::SpringMass, solver::{Method, solve}};
     /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
-    /// assert!(solve(&system, &Method::Lagrange)?.certificate(&system)?.is_zero());
+    /// assert!(solve(&system, &Method::Lagrange)?.residuals(&system)?.is_zero());
     /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
     /// ```
-    pub fn certificate(&self, system: &SpringMass<T>) -> Result<contact::Kkt<Exact>, SolveError> {
+    pub fn residuals(&self, system: &SpringMass<T>) -> Result<contact::Kkt<Exact>, SolveError> {
         validate::system(system)?;
         validate::finite_number("deflection", &self.deflection)?;
         validate::finite_number("contact force", &self.contact_force)?;

@@ -4,8 +4,8 @@ use super::{Experiment, MAX_STEPS, STEPS, Trial, UNITS, check, power_of_two};
 use crate::chapter::{SpringMass, augmented, structure, system};
 use crate::claims::{Case, claims, symbols};
 use crate::eval::{
-    Compiled, Computed, Domain, Evaluation, Floats, Instance, Quantity, Test, UNFOLDED_MEMBERS, Value,
-    instances, premises,
+    Compiled, Decidable, Domain, Evaluation, Floats, Instance, RoundedRationals, Test, UNFOLDED_MEMBERS,
+    Value, instances, premises,
 };
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Proposition, Statement};
@@ -169,7 +169,7 @@ impl<T: Scalar + Real + ToExact> Numbers<'_, T> {
         formulas: &'a Compiled,
     ) -> Evaluation<'a, impl Domain<Value = Value>, impl Fn(&'static str) -> Value> {
         let floats = formulas.evaluate(&self.floats, |symbol| Some(self.float(symbol)));
-        formulas.evaluate(Computed(floats), |symbol| self.exact(symbol))
+        formulas.evaluate(RoundedRationals(floats), |symbol| self.exact(symbol))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::*;
 use spring_mass_contact::number::Exact;
 
-fn exact(text: &str) -> Value {
+fn exact(text: &str) -> ReportedNumber {
     Some(text.parse::<Exact>().unwrap())
 }
 
@@ -29,7 +29,7 @@ fn garbled(rest: &str) -> String {
 }
 
 /// Returns u and N from texts.
-fn numbers(u: &str, n: &str) -> [Value; 2] {
+fn numbers(u: &str, n: &str) -> [ReportedNumber; 2] {
     let Answer { deflection, contact_force, .. } =
         answered(&format!(r#""deflection": {u}, "contact_force": {n}"#));
     [deflection, contact_force]
