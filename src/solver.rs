@@ -15,18 +15,39 @@
 
 mod augmentation;
 mod closed;
-#[cfg(feature = "mpfr")]
-mod exact;
 mod functional;
 mod root;
 mod scalar;
 mod solution;
 mod validate;
 
+#[cfg(feature = "mpfr")]
+mod advise;
+#[cfg(feature = "mpfr")]
+mod count;
+#[cfg(feature = "mpfr")]
+mod display;
+#[cfg(feature = "mpfr")]
+mod format;
+#[cfg(feature = "mpfr")]
+mod gmp_scalars;
+#[cfg(feature = "mpfr")]
+mod guarantees;
+#[cfg(feature = "mpfr")]
+pub mod laws;
+#[cfg(feature = "mpfr")]
+mod read;
+#[cfg(feature = "mpfr")]
+mod residuals;
+#[cfg(feature = "mpfr")]
+mod rounding_laws;
+#[cfg(feature = "mpfr")]
+mod series;
+#[cfg(feature = "mpfr")]
+mod sweep;
+
 pub use augmentation::{Augmentation, Iterate};
 pub use closed::kth_iterate;
-#[cfg(feature = "mpfr")]
-pub use exact::*;
 pub use functional::{
     DualEnclosure, FunctionalCondition, FunctionalError, penalty_for_functional, solve_functional,
 };
@@ -34,8 +55,27 @@ pub use scalar::{Interval, Scalar};
 pub use solution::{Bounds, MAX_AUGMENTATIONS, Method, Outcome, Plane, Solution, State};
 pub use validate::SolveError;
 
+#[cfg(feature = "mpfr")]
+pub use {
+    advise::{Advice, Recommendation, advise},
+    count::exact_augmentation_count,
+    format::{format_equation, format_short, format_short_bound},
+    guarantees::{
+        guaranteed_max_augmentations, is_convergence_guaranteed, required_precision, rounding_floor,
+    },
+    read::ReadError,
+    series::series_penetration,
+    sweep::{SweepRow, best_penalty, penalties, penalty_force_bound, sweep},
+};
+
 use crate::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
 use num_traits::One;
+
+/// Returns the value of a number that has been checked, or is the result of a solve.
+#[cfg(feature = "mpfr")]
+fn exact<T: crate::number::ToExact>(x: &T) -> crate::number::Exact {
+    x.to_exact().expect("a finite number")
+}
 
 /// Solves a system with unilateral contact: the plane pushes and never pulls.
 ///
