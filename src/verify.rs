@@ -29,6 +29,7 @@ pub use experiments::{Experiment, Trial, experiments};
 use num_traits::One;
 use proofs::{ProofAttempt, ProofOutcome};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -264,14 +265,13 @@ fn run(
             }
         }
     }
-    rows.sort_by_key(|row| index_of(row.equation));
-    // All rows of a claim are adjacent.
-    let mut sorted: Vec<ClaimResult> = Vec::with_capacity(rows.len());
-    for row in rows {
-        let last = sorted.iter().rposition(|r| (r.equation, r.claim) == (row.equation, row.claim));
-        sorted.insert(last.map_or(sorted.len(), |last| last + 1), row);
+    let mut places = BTreeMap::new();
+    for (place, row) in rows.iter().enumerate() {
+        places.entry((row.equation, row.claim)).or_insert(place);
     }
-    VerificationReport { rows: sorted, shared }
+    // All rows of a claim are adjacent.
+    rows.sort_by_key(|row| (index_of(row.equation), places[&(row.equation, row.claim)]));
+    VerificationReport { rows, shared }
 }
 
 /// Returns for each number system a tally for each of its claims.
