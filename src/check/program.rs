@@ -38,7 +38,7 @@ impl Step {
     fn edit(&self, new: &Tree) -> String {
         let Step { name, value, role } = self;
         match role {
-            Role::FailureCondition => format!("the plane acts if {new} > 0 instead of if {value} > 0"),
+            Role::Condition => format!("the plane acts if {new} > 0 instead of if {value} > 0"),
             _ => format!("{}{name} = {new} instead of {value}", role.state()),
         }
     }
@@ -49,7 +49,7 @@ impl Step {
 enum Role {
     Intermediate,
     /// It is positive in contact.
-    FailureCondition,
+    Condition,
     /// u or N in contact.
     InContact,
     /// u or N without contact.
@@ -64,7 +64,7 @@ impl Role {
         match self {
             Role::InContact => "in contact ",
             Role::Apart => "without contact ",
-            Role::Intermediate | Role::FailureCondition | Role::Always => "",
+            Role::Intermediate | Role::Condition | Role::Always => "",
         }
     }
 }
@@ -154,7 +154,7 @@ impl Program {
     fn with_branches(named: &Named, condition: Tree, contact: Formulas, apart: Formulas) -> Self {
         let ([u, n], [free, zero]) = (contact, apart);
         let last = [
-            ("condition", condition, Role::FailureCondition),
+            ("condition", condition, Role::Condition),
             ("u", u, Role::InContact),
             ("N", n, Role::InContact),
             ("u", free, Role::Apart),
@@ -188,7 +188,7 @@ impl Program {
 
     /// Returns the index of the condition, after the intermediate results.
     fn condition(&self) -> Option<usize> {
-        self.steps.iter().position(|step| step.role == Role::FailureCondition)
+        self.steps.iter().position(|step| step.role == Role::Condition)
     }
 
     /// Returns the program without intermediate results.
