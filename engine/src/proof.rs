@@ -40,8 +40,8 @@ pub mod refute;
 pub mod render;
 mod search;
 
-pub use check::{MAX_DEPTH, MAX_SIZE, Proof};
-pub use effort::MAX_EFFORT;
+pub use check::Proof;
+pub use effort::{MAX_DEPTH, MAX_EFFORT, MAX_SIZE};
 pub use mutation::{MutationReport, test_mutations};
 pub use refute::{Counterexample, Refutation, refute, tightest_point};
 pub use search::{ProofError, prove};

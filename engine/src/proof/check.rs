@@ -51,8 +51,8 @@ mod table;
 mod tests;
 
 pub use polynomial::{MAX_VARIABLES, Polynomial, Powers};
-pub use premises::{MAX_DEPTH, MAX_SIZE, Premise};
-pub(in crate::proof) use premises::{check_premises, check_size};
+pub use premises::Premise;
+pub(in crate::proof) use premises::check_premises;
 pub(in crate::proof) use quotient::Quotient;
 pub use sign::Sign;
 pub(in crate::proof) use state::State;

@@ -1,12 +1,28 @@
-//! A bound on the effort of a proof.
+//! Bounds on the size of a statement, and on the effort of its proof.
 //!
 //! The size of a polynomial cannot be predicted from the formula. So arithmetic counts the terms that it processes.
 
+use crate::number::Tree;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Maximum number of terms that arithmetic processes in the check of a goal, and in the search for its proof.
 pub const MAX_EFFORT: usize = 20_000_000;
+
+/// Maximum number of operations, quantities and numbers in all formulas of a statement.
+pub const MAX_SIZE: u32 = 20_000;
+
+/// Maximum depth of a formula in a statement.
+pub const MAX_DEPTH: u32 = 500;
+
+/// Returns the quantity of formulas that exceeds its maximum, and the maximum; `None` if none does.
+pub fn excess_size<'t>(trees: impl Iterator<Item = &'t Tree> + Clone) -> Option<(&'static str, usize)> {
+    if trees.clone().any(|tree| tree.depth() > MAX_DEPTH) {
+        return Some(("its depth", MAX_DEPTH as usize));
+    }
+    let size = trees.fold(0, |sum: u32, tree| sum.saturating_add(tree.size()));
+    (size > MAX_SIZE).then_some(("its size", MAX_SIZE as usize))
+}
 
 /// The number of terms that may still be processed, shared by all parts of one proof.
 #[derive(Clone, Debug)]

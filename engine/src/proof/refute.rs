@@ -143,7 +143,9 @@ const TIGHTEST_POINT_TRIALS: usize = 500;
 /// `None` does not prove the statement. Statements that are too large for [`prove`](super::prove) are not
 /// examined.
 pub fn refute(statement: &Statement) -> Option<Counterexample> {
-    super::check::check_size(statement.trees()).ok()?;
+    if super::effort::excess_size(statement.trees()).is_some() {
+        return None;
+    }
     let symbols = independent_symbols(statement);
     let points = PointSet::of(statement.hypotheses().to_vec(), symbols);
     let refutation =

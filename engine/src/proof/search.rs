@@ -37,7 +37,7 @@ mod tests;
 pub use self::error::{ProofError, Quantity};
 
 use super::check::{self, Node, Polynomial, Premise, Problem, Proof, Refusal, Sign, Table, check};
-use super::effort::MAX_EFFORT;
+use super::effort::{MAX_EFFORT, excess_size};
 use crate::formula::statement::{Proposition, Statement};
 use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
@@ -82,7 +82,9 @@ pub(in crate::proof) fn prove_proposition(
     hypotheses: Vec<&Hypothesis>,
 ) -> Result<Node, ProofError> {
     let trees: Vec<&Tree> = hypotheses.iter().map(|h| &h.value).chain(proposition.trees()).collect();
-    check::check_size(trees.iter().copied())?;
+    if let Some((quantity, most)) = excess_size(trees.iter().copied()) {
+        return Err(Premise::TooLarge(quantity, most).into());
+    }
     if proposition.variable().is_some() && trees.into_iter().any(Tree::contains_rounding) {
         return Err(Premise::Discontinuous.into());
     }

@@ -23,6 +23,7 @@ use super::table::Atom;
 use super::{Checked, Refusal};
 use crate::formula::Relation;
 use std::cmp::Ordering;
+use std::iter;
 
 impl State<'_> {
     /// Returns the variable of the limit.
@@ -36,15 +37,16 @@ impl State<'_> {
     /// on the variable in any other way.
     pub fn leading(&self, of: &Quotient) -> Checked<(i32, Vec<Polynomial>)> {
         let x = self.variable_of_limit()?;
-        let (mut excess, mut coefficients) = (0, Vec::with_capacity(1 + of.den.len()));
+        let (mut excess, mut coefficients) =
+            (2 * i32::from(of.num.degree(x)), Vec::with_capacity(1 + of.den.len()));
         let den = of.den.iter().map(|i| Ok(&self.facts.get(*i)?.0));
-        for part in [Ok(&of.num)].into_iter().chain(den) {
-            let (degree, leading) = part?.leading(x);
-            if !part?.has_only(|y| x == y || !self.problem.varies(y)) {
+        for part in iter::once(Ok(&of.num)).chain(den) {
+            let part = part?;
+            if !part.has_only(|y| x == y || !self.problem.varies(y)) {
                 return Err(Refusal::Limit);
             }
-            excess += if coefficients.is_empty() { i32::from(degree) } else { -i32::from(degree) };
-            coefficients.push(leading);
+            excess -= i32::from(part.degree(x));
+            coefficients.push(part.coefficient(x, part.degree(x)));
         }
         Ok((excess, coefficients))
     }

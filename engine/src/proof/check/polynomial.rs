@@ -42,8 +42,7 @@ impl Polynomial {
 
     /// Returns the constant `n`.
     pub fn constant(n: i128) -> Self {
-        let terms = if n == 0 { Vec::new() } else { vec![([0; MAX_VARIABLES], n)] };
-        Polynomial(terms)
+        Polynomial((n != 0).then_some(([0; MAX_VARIABLES], n)).into_iter().collect())
     }
 
     /// Returns the variable `x` as a polynomial.
@@ -119,13 +118,10 @@ impl Polynomial {
     /// Returns the coefficient of xⁿ.
     pub fn coefficient(&self, x: usize, n: u8) -> Self {
         let of_power = self.0.iter().filter(|(powers, _)| powers[x] == n);
+        let mut rest: Vec<_> = of_power.copied().collect();
+        rest.iter_mut().for_each(|(powers, _)| powers[x] = 0);
         // Equal powers of x do not change the order of the others.
-        Polynomial(of_power.map(|(powers, number)| (without(powers, x), *number)).collect())
-    }
-
-    /// Returns the degree in a variable and the coefficient of its highest power.
-    pub fn leading(&self, x: usize) -> (u8, Self) {
-        (self.degree(x), self.coefficient(x, self.degree(x)))
+        Polynomial(rest)
     }
 
     /// Replaces a variable by a polynomial.
@@ -140,10 +136,4 @@ impl Polynomial {
         }
         Ok(sum)
     }
-}
-
-fn without(powers: &Powers, x: usize) -> Powers {
-    let mut rest = *powers;
-    rest[x] = 0;
-    rest
 }

@@ -3,6 +3,7 @@
 use crate::formula::claim::{MEMBERS, POWER, PRECISION, SCALES};
 use crate::formula::statement::{Sequence, Statement};
 use crate::number::Tree;
+use crate::proof::effort::excess_size;
 
 /// A premise that a statement does not satisfy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -24,19 +25,15 @@ pub enum Premise {
     TooLarge(&'static str, usize),
 }
 
-/// Maximum number of operations, quantities and numbers in all formulas of a statement.
-pub const MAX_SIZE: u32 = 20_000;
-
-/// Maximum depth of a formula in a statement.
-pub const MAX_DEPTH: u32 = 500;
-
 /// Checks the premises of a proof: the statement has goals, is not too large, and uses no reserved name, and no
 /// limit or derivative in it is one of a rounded or computed quantity.
 ///
 /// # Errors
 /// Returns the premise that does not hold.
 pub fn check_premises(statement: &Statement) -> Result<(), Premise> {
-    check_size(statement.trees())?;
+    if let Some((quantity, most)) = excess_size(statement.trees()) {
+        return Err(Premise::TooLarge(quantity, most));
+    }
     if statement.goals().is_empty() {
         return Err(Premise::NoGoals);
     }
@@ -45,22 +42,6 @@ pub fn check_premises(statement: &Statement) -> Result<(), Premise> {
     // A computed quantity varies with its operands, which its symbol does not show.
     if (rounds || !statement.computed().is_empty()) && has_continuous_variable(statement) {
         return Err(Premise::Discontinuous);
-    }
-    Ok(())
-}
-
-/// Checks the size and depth of formulas.
-///
-/// # Errors
-/// Returns [`Premise::TooLarge`] if the formulas exceed [`MAX_SIZE`] or [`MAX_DEPTH`].
-pub fn check_size<'t>(trees: impl Iterator<Item = &'t Tree> + Clone) -> Result<(), Premise> {
-    let deepest = trees.clone().map(Tree::depth).max().unwrap_or(0);
-    if deepest > MAX_DEPTH {
-        return Err(Premise::TooLarge("its depth", MAX_DEPTH as usize));
-    }
-    let size = trees.fold(0, |sum: u32, tree| sum.saturating_add(tree.size()));
-    if size > MAX_SIZE {
-        return Err(Premise::TooLarge("its size", MAX_SIZE as usize));
     }
     Ok(())
 }

@@ -10,6 +10,7 @@ use crate::number::tree::{Op, smooth_ops};
 use crate::number::{Dual, Tree};
 use crate::proof::effort::Effort;
 use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 
 /// A variable of polynomials, and the real number that it stands for.
 ///
@@ -169,44 +170,27 @@ impl Table {
         self.scaled.get(of).copied().flatten().unwrap_or(([0; 3], of))
     }
 
-    fn add_atom(&mut self, atom: Atom) {
-        if !self.atoms.contains(&atom) {
-            self.atoms.push(atom);
-        }
-    }
-
-    /// Adds e to the power of a formula, and its reciprocal.
-    fn add_exponentials(&mut self, exponent: usize) {
-        let reciprocal = self.insert(Op::Neg(exponent), -&self.formulas[exponent].1);
-        self.add_atom(Atom::Exponential(exponent));
-        self.add_atom(Atom::Exponential(reciprocal));
-    }
-
-    fn add_atoms(&mut self, hypotheses: &[&Hypothesis]) -> Checked<()> {
+    /// Adds the atoms of the formulas so far, and the parameters of the hypotheses that are intervals.
+    fn add_atoms(&mut self, parameters: impl Iterator<Item = usize>) -> Checked<()> {
+        let mut atoms: BTreeSet<_> = parameters.map(Atom::IntervalParameter).collect();
         let rounds = self.formulas.iter().any(|(op, _)| matches!(op, Op::Rounded(_)));
         for (op, tree) in self.formulas.clone() {
             let scaled = if rounds { self.without_scales(op, &tree) } else { None };
             self.scaled.push(scaled);
             match op {
-                Op::Symbol(name) => self.add_atom(Atom::Own(name)),
-                Op::Exp(exponent) => self.add_exponentials(exponent),
+                Op::Symbol(name) => atoms.extend([Atom::Own(name)]),
+                Op::Exp(exponent) => {
+                    let reciprocal = self.insert(Op::Neg(exponent), -&self.formulas[exponent].1);
+                    atoms.extend([exponent, reciprocal].map(Atom::Exponential));
+                }
                 Op::Min(negated, of) if self.op(negated)? == Op::Neg(of) => {
-                    self.add_atom(Atom::Size(of));
-                    self.add_atom(Atom::Factor(of));
+                    atoms.extend([Atom::Size(of), Atom::Factor(of)]);
                 }
-                Op::Rounded(of) => {
-                    self.add_atom(Atom::Own(PRECISION));
-                    self.add_atom(Atom::Error(self.rounding(of).1));
-                }
+                Op::Rounded(of) => atoms.extend([Atom::Own(PRECISION), Atom::Error(self.rounding(of).1)]),
                 _ => {}
             }
         }
-        for (i, hypothesis) in hypotheses.iter().enumerate() {
-            if hypothesis.interval().is_some() {
-                self.add_atom(Atom::IntervalParameter(i));
-            }
-        }
-        self.atoms.sort_unstable();
+        self.atoms = atoms.into_iter().collect();
         if self.atoms.len() > MAX_VARIABLES { Err(Refusal::TooLarge) } else { Ok(()) }
     }
 }
@@ -221,11 +205,11 @@ impl<'a> Problem<'a> {
         let mut table = Table::default();
         let values = hypotheses.iter().map(|h| table.add(&h.value)).collect();
         let intervals = hypotheses.iter().map(|h| h.interval());
-        let intervals =
-            intervals.map(|of| of.map(|(x, lower, upper)| (x, [lower, upper].map(|end| table.add(end)))));
-        let intervals = intervals.collect();
+        let intervals: Vec<_> = intervals
+            .map(|of| of.map(|(x, lower, upper)| (x, [lower, upper].map(|end| table.add(end)))))
+            .collect();
         let goal = proposition.trees().into_iter().chain(&derivative).map(|tree| table.add(tree)).collect();
-        table.add_atoms(&hypotheses)?;
+        table.add_atoms((0..intervals.len()).filter(|i| intervals[*i].is_some()))?;
         Ok(Problem { proposition, hypotheses, values, intervals, goal, table, effort: Effort::default() })
     }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::formula::claim::{Rate, induction, limit};
+use crate::proof::effort::{MAX_DEPTH, MAX_SIZE, excess_size};
 
 #[test]
 fn names_and_sizes_are_checked() {
@@ -47,7 +48,7 @@ fn limits_are_reached_and_not_exceeded() {
         matches!(check(&claim, &[]), Err(CheckError::Goals))
     };
     assert_eq!([MAX_DEPTH, MAX_DEPTH + 1].map(is_checked), [true, false]);
-    let is_small = |size| check_size(vec![u.clone(); size as usize].iter()).is_ok();
+    let is_small = |size| excess_size(vec![u.clone(); size as usize].iter()).is_none();
     assert_eq!([MAX_SIZE, MAX_SIZE + 1].map(is_small), [true, false]);
     // All are named by hypotheses, of which the first is the goal.
     let by_hypothesis = |count| {
