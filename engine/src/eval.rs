@@ -9,6 +9,7 @@ mod computed;
 mod domain;
 mod evaluation;
 mod germ;
+mod hypothesis;
 mod sample;
 mod shrink;
 #[cfg(test)]
