@@ -9,6 +9,7 @@ use super::symbols::{POWER, PRECISION, SCALES};
 use super::typeset::{Name, Notation, latex};
 use crate::number::Tree;
 use crate::number::tree::{Op, Site};
+use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// A recorded function.
@@ -139,15 +140,15 @@ impl Registry {
         })
     }
 
-    /// Returns a registry that writes out functions whose symbols are those of these quantities; `None` if
-    /// there are none.
-    pub(crate) fn without_symbols(&self, quantities: &BTreeSet<&str>) -> Option<Self> {
-        let abbreviated = self.formulas.iter().filter(|formula| formula.abbreviated);
-        abbreviated.clone().any(|formula| quantities.contains(formula.symbol)).then(|| {
-            let mut registry = self.clone();
-            registry.formulas.iter_mut().for_each(|f| f.abbreviated &= !quantities.contains(f.symbol));
-            registry
-        })
+    /// Returns the registry, except that functions whose symbols are those of these quantities are written out.
+    pub(crate) fn without_symbols(&self, quantities: &BTreeSet<&str>) -> Cow<'_, Self> {
+        let mut registry = Cow::Borrowed(self);
+        for (i, formula) in self.formulas.iter().enumerate() {
+            if formula.abbreviated && quantities.contains(formula.symbol) {
+                registry.to_mut().formulas[i].abbreviated = false;
+            }
+        }
+        registry
     }
 
     /// Returns the functions.

@@ -273,7 +273,7 @@ impl Statement {
     }
 
     /// Returns the formulas of the statement without those of the hypotheses.
-    fn formulas(&self) -> impl Iterator<Item = &Tree> {
+    pub(crate) fn formulas(&self) -> impl Iterator<Item = &Tree> {
         let (propositions, sequence) = match &self.form {
             Form::Propositions(all) => (&all[..], None),
             Form::Sequence(sequence) => (&[][..], Some(sequence)),

@@ -16,69 +16,59 @@ use crate::formula::claim::{MEMBERS, POWER};
 use crate::formula::statement::{Goal, Proposition, Role, Sequence, Statement};
 use crate::formula::{Call, Formula, Notation, Registry};
 use crate::number::{PositivePart, Tree};
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 /// Printer of claims and proofs with the names of a registry.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct ProofPrinter<'a> {
-    registry: &'a Registry,
+    registry: Cow<'a, Registry>,
 }
 
 impl<'a> ProofPrinter<'a> {
     /// Returns a printer with the names of this registry.
     pub fn new(registry: &'a Registry) -> Self {
-        ProofPrinter { registry }
+        ProofPrinter { registry: Cow::Borrowed(registry) }
     }
 
     /// Formats a claim in one line.
     pub fn claim(&self, statement: &Statement) -> String {
-        if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter::new(&registry).claim(statement);
-        }
+        let printer = self.for_statement(statement);
+        let power = statement.conclusion().map(|sequence| printer.power(statement, &sequence.ratio));
         let computed = statement.computed().iter();
-        let computed = computed.map(|c| format!("{} = {}", c.symbol, self.text(&c.formula)));
-        let computed: Vec<_> = computed.collect();
-        let Some(sequence) = statement.conclusion() else {
+        let computed = computed.map(|c| format!("{} = {}", c.symbol, printer.text(&c.formula)));
+        let definitions = power.into_iter().chain(computed).collect::<Vec<_>>().join(" and ");
+        let Some(Sequence { start, step, ratio, member, limit, within }) = statement.conclusion() else {
             let goals = statement.goals().iter().filter(|goal| goal.role == Role::Claim);
-            let goals: Vec<_> = goals.map(|goal| self.format_proposition(&goal.proposition)).collect();
-            let separator = if computed.is_empty() { "" } else { ", where " };
-            return goals.join("; ") + separator + &computed.join(" and ");
+            let goals: Vec<_> = goals.map(|goal| printer.format_proposition(&goal.proposition)).collect();
+            let separator = if definitions.is_empty() { "" } else { ", where " };
+            return goals.join("; ") + separator + &definitions;
         };
-        let Sequence { start, step, ratio, member, limit, within } = sequence;
-        let (index, power) = (self.index(statement), self.power(statement, ratio));
-        let definitions = [&[power], &computed[..]].concat().join(" and ");
+        let (index, members) = (printer.index(statement), MEMBERS[..step.len()].join(", "));
+        let [start, step, member] = [start, step, member]
+            .map(|trees| trees.iter().map(|tree| printer.text(tree)).collect::<Vec<_>>().join(", "));
         if let Some(limit) = limit {
-            let (member, limit) = (self.list(member), self.text(limit));
-            let size = self.text(&ratio.abs());
+            let (limit, size) = (printer.text(limit), printer.text(&ratio.abs()));
             return format!(
                 "{member} → {limit} for {definitions} and {index} → ∞, as {size} < 1 and it is {limit} at q = 0"
             );
         }
-        let (from, to, members) = (self.list(start), self.list(step), MEMBERS[..step.len()].join(", "));
-        let bounds = within
-            .iter()
-            .map(|(of, bound)| self.format_proposition(&Proposition::Within(of.clone(), bound.clone())));
-        let result = match &bounds.collect::<Vec<_>>()[..] {
-            [] => self.list(member),
-            bounds => format!("{members} with {}", bounds.join(" and ")),
-        };
-        format!("{index} steps from {from}, each of {members} to {to}, lead to {result}, where {definitions}")
-    }
-
-    fn list(&self, trees: &[Tree]) -> String {
-        trees.iter().map(|tree| self.text(tree)).collect::<Vec<_>>().join(", ")
+        let bounds: Vec<_> = within.iter().map(|(of, bound)| printer.format_bound(of, bound)).collect();
+        let result =
+            if bounds.is_empty() { member } else { format!("{members} with {}", bounds.join(" and ")) };
+        format!(
+            "{index} steps from {start}, each of {members} to {step}, lead to {result}, where {definitions}"
+        )
     }
 
     /// Returns the properties of a sequence at every step, and of computed quantities, which are proved and
     /// not assumed.
     pub fn invariants(&self, statement: &Statement) -> Vec<String> {
-        if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter::new(&registry).invariants(statement);
-        }
+        let printer = self.for_statement(statement);
         let computed = statement.computed().iter().map(|computed| &computed.hypothesis);
         let all = statement.invariants().iter().chain(computed);
-        all.map(|hypothesis| self.registry.format_hypothesis(hypothesis)).collect()
+        all.map(|hypothesis| printer.registry.format_hypothesis(hypothesis)).collect()
     }
 
     /// Returns the letter for the index of a sequence, which has no other meaning in the statement.
@@ -88,12 +78,11 @@ impl<'a> ProofPrinter<'a> {
 
     /// Returns the letter and its superscript.
     fn letter(&self, statement: &Statement) -> (char, char) {
-        let symbols: Vec<_> = statement.trees().flat_map(Tree::symbols).collect();
         let names = self.called(statement).into_iter().map(|called| called.formula.symbol);
-        let taken: BTreeSet<_> = symbols.into_iter().chain(names).collect();
+        let taken: BTreeSet<_> = statement.trees().flat_map(Tree::symbols).chain(names).collect();
         let [letters, superscripts] = LETTERS.map(str::chars);
-        let mut free = letters.zip(superscripts).filter(|(letter, _)| !taken.contains(&*letter.to_string()));
-        free.next().unwrap_or(('k', 'ᵏ'))
+        let mut all = letters.zip(superscripts);
+        all.find(|(letter, _)| !taken.contains(&*letter.to_string())).unwrap_or(('k', 'ᵏ'))
     }
 
     /// Returns the definition of the power of a ratio: `q = ρᵏ`.
@@ -103,10 +92,14 @@ impl<'a> ProofPrinter<'a> {
         format!("{POWER} = {power}")
     }
 
-    /// Returns the registry without names that the statement uses for its own quantities; `None` if there are
-    /// none.
-    fn other_names(&self, statement: &Statement) -> Option<Registry> {
-        self.registry.without_symbols(&statement.trees().flat_map(Tree::symbols).collect())
+    /// Returns a printer without the names that the statement uses for its own quantities.
+    fn for_statement(&self, statement: &Statement) -> ProofPrinter<'_> {
+        let quantities = statement.trees().flat_map(Tree::symbols).collect();
+        ProofPrinter { registry: self.registry.without_symbols(&quantities) }
+    }
+
+    fn format_bound(&self, of: &Tree, bound: &Tree) -> String {
+        format!("{} ≤ {}", self.text(&of.abs()), self.text(bound))
     }
 
     /// Formats a goal.
@@ -121,7 +114,7 @@ impl<'a> ProofPrinter<'a> {
                 [formula, _] => format!("both functions are {formula}"),
             },
             Sign(relation, of) => format!("{} {relation} 0", self.text(of)),
-            Within(of, bound) => format!("{} ≤ {}", self.text(&of.abs()), self.text(bound)),
+            Within(of, bound) => self.format_bound(of, bound),
             Derivative(of, x, is) => format!("∂/∂{x} [{}] = {}", self.text(of), self.text(is)),
             Limit(of, x, to) => format!("lim [{}] = {} for {x} → ∞", self.text(of), self.text(to)),
         }
@@ -129,64 +122,49 @@ impl<'a> ProofPrinter<'a> {
 
     /// Returns the hypotheses used in the proof of a goal, as text.
     pub fn used(&self, proof: &Proof) -> Vec<String> {
-        if let Some(registry) = self.other_names(proof.statement()) {
-            return ProofPrinter::new(&registry).used(proof);
-        }
-        let mut all = Vec::new();
-        for (goal, node) in proof.statement().goals().iter().zip(proof.goals()) {
-            let hypotheses = proof.statement().hypotheses_for(goal.role);
-            let used = leaves(node).into_iter().flatten().filter_map(|step| match step {
-                Step::Assume(i) => hypotheses.get(*i),
-                _ => None,
-            });
-            for hypothesis in used {
-                if !all.contains(*hypothesis) {
-                    all.push((*hypothesis).clone());
+        let (statement, mut all) = (proof.statement(), Vec::new());
+        for (goal, node) in statement.goals().iter().zip(proof.goals()) {
+            let hypotheses = statement.hypotheses_for(goal.role);
+            for step in leaves(node).into_iter().flatten() {
+                if let Step::Assume(i) = step
+                    && !all.contains(hypotheses[*i])
+                {
+                    all.push(hypotheses[*i].clone());
                 }
             }
         }
-        self.registry.format_hypotheses(&all)
+        self.for_statement(statement).registry.format_hypotheses(&all)
     }
 
     /// Returns the definitions of the names in a claim: `d = a b − c (x − y)`.
     pub fn names(&self, statement: &Statement) -> Vec<String> {
-        if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter::new(&registry).names(statement);
-        }
-        let called = self.called(statement).into_iter();
-        let definitions = called.map(|Called { formula, arguments }| {
-            let names: Vec<_> = self.registry.displayed_arguments(formula, arguments).collect();
+        let printer = self.for_statement(statement);
+        let definitions = printer.called(statement).into_iter().map(|Called { formula, arguments }| {
+            let names: Vec<_> = printer.registry.displayed_arguments(formula, arguments).collect();
             let names = if names.is_empty() { String::new() } else { format!("({})", names.join(", ")) };
-            format!("{}{names} = {}", formula.symbol, self.registry.typeset(formula, Notation::Text))
+            format!("{}{names} = {}", formula.symbol, printer.registry.typeset(formula, Notation::Text))
         });
         definitions.collect()
     }
 
     /// Returns the formulas abbreviated in the text of the statement, and those abbreviated in their
     /// definitions.
-    fn called(&self, statement: &Statement) -> Vec<Called<'a>> {
-        let mut called = Vec::new();
-        statement.trees().for_each(|tree| self.add_called(tree, &mut called));
-        if let Some(Sequence { start, step, ratio, member, limit, within }) = statement.conclusion() {
-            let bounds = within.iter().flat_map(|(of, bound)| [of, bound]);
-            let trees = start.iter().chain(step).chain([ratio]).chain(member).chain(limit).chain(bounds);
-            trees.for_each(|tree| self.add_called(tree, &mut called));
-        }
+    fn called(&self, statement: &Statement) -> Vec<Called<'_>> {
+        let all = RefCell::new(Vec::new());
+        let trees = statement.trees().chain(statement.formulas());
+        trees.for_each(|tree| self.add_called(tree, &all));
         // A definition may contain further names.
-        let mut i = 0;
-        while let Some(Called { formula, .. }) = called.get(i) {
-            formula.tree.op().operands().for_each(|tree| self.add_called(tree, &mut called));
-            i += 1;
+        for i in 0.. {
+            let Some(formula) = all.borrow().get(i).map(|called: &Called| called.formula) else { break };
+            formula.tree.op().operands().for_each(|tree| self.add_called(tree, &all));
         }
-        called
+        all.into_inner()
     }
 
     /// Adds the formulas abbreviated in the text of a formula.
-    fn add_called(&self, tree: &Tree, called: &mut Vec<Called<'a>>) {
-        let all = RefCell::new(called);
+    fn add_called<'s>(&'s self, tree: &Tree, all: &RefCell<Vec<Called<'s>>>) {
         tree.typeset(Notation::Text, &|part| {
-            let name = self.registry.call_name(part)?;
-            let Call { formula, .. } = self.registry.call(part)?;
+            let (name, Call { formula, .. }) = self.registry.call_name(part).zip(self.registry.call(part))?;
             let (mut called, arguments) = (all.borrow_mut(), name.arguments.len());
             match called.iter_mut().find(|known| known.formula.name() == formula.name()) {
                 Some(known) => known.arguments = known.arguments.max(arguments),
@@ -199,43 +177,33 @@ impl<'a> ProofPrinter<'a> {
     /// Returns the lines of the whole proof.
     pub fn proof(&self, proof: &Proof) -> Vec<String> {
         let statement = proof.statement();
-        if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter::new(&registry).proof(proof);
-        }
+        let printer = self.for_statement(statement);
         let mut lines = Vec::new();
         lines.extend(statement.conclusion().map(|Sequence { ratio, limit, .. }| {
-            let (index, power) = (self.index(statement), self.power(statement, ratio));
-            match limit {
-                None => {
-                    let next = self.text(&(ratio * Tree::symbol(POWER)));
-                    let steps = format!("for {POWER} = 1, and from {POWER} to {next}");
-                    format!("by induction on {index}, with {power}: {steps}")
-                }
-                Some(_) => {
-                    let size = self.text(&ratio.abs());
-                    let continuous =
-                        format!("a function continuous in {POWER} at 0 tends to its value there");
-                    format!("{power} → 0 if {size} < 1, and {continuous}")
-                }
+            let (index, power) = (printer.index(statement), printer.power(statement, ratio));
+            if limit.is_none() {
+                let next = printer.text(&(ratio * Tree::symbol(POWER)));
+                return format!("by induction on {index}, with {power}: for {POWER} = 1, and from {POWER} to {next}");
             }
+            let size = printer.text(&ratio.abs());
+            format!("{power} → 0 if {size} < 1, and a function continuous in {POWER} at 0 tends to its value there")
         }));
         let single = statement.goals().len() == 1;
         for (Goal { part, role, proposition }, node) in statement.goals().iter().zip(proof.goals()) {
             let problem = Problem::new(proposition, statement.hypotheses_for(*role));
             let goal_lines =
-                problem.and_then(|problem| Lines::new(self, &problem).node(node, &mut Vec::new()));
+                problem.and_then(|problem| Lines::new(&printer, &problem).node(node, &mut Vec::new()));
             let goal_lines = goal_lines.unwrap_or_else(|reason| vec![reason.to_string()]);
             if single {
-                lines.extend(goal_lines);
-            } else {
-                let part = match statement.conclusion() {
-                    Some(Sequence { ratio, .. }) => part.replace("|ρ|", &self.text(&ratio.abs())),
-                    None => part.to_string(),
-                };
-                let colon = if part.is_empty() { "" } else { ": " };
-                lines.push(format!("{part}{colon}{}", self.format_proposition(proposition)));
-                lines.extend(goal_lines.into_iter().map(|line| format!("  {line}")));
+                return [lines, goal_lines].concat();
             }
+            let part = match statement.conclusion() {
+                Some(Sequence { ratio, .. }) => part.replace("|ρ|", &printer.text(&ratio.abs())),
+                None => part.to_string(),
+            };
+            let colon = if part.is_empty() { "" } else { ": " };
+            lines.push(format!("{part}{colon}{}", printer.format_proposition(proposition)));
+            lines.extend(goal_lines.into_iter().map(|line| format!("  {line}")));
         }
         lines
     }
@@ -244,17 +212,15 @@ impl<'a> ProofPrinter<'a> {
     #[cfg(feature = "serde")]
     pub fn data(&self, proof: &Proof) -> Vec<GoalProof> {
         let statement = proof.statement();
-        if let Some(registry) = self.other_names(statement) {
-            return ProofPrinter::new(&registry).data(proof);
-        }
+        let printer = self.for_statement(statement);
         let all = statement.goals().iter().zip(proof.goals());
         all.filter_map(|(Goal { role, proposition, .. }, proof)| {
             let problem = Problem::new(proposition, statement.hypotheses_for(*role)).ok()?;
-            let hypotheses = problem.hypotheses.iter().map(|h| self.registry.format_hypothesis(h));
+            let hypotheses = problem.hypotheses.iter().map(|h| printer.registry.format_hypothesis(h));
             Some(GoalProof {
-                goal: self.format_proposition(proposition),
+                goal: printer.format_proposition(proposition),
                 hypotheses: hypotheses.collect(),
-                atoms: Lines::new(self, &problem).descriptions(),
+                atoms: Lines::new(&printer, &problem).descriptions(),
                 proof: proof.clone(),
             })
         })

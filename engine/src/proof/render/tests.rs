@@ -157,9 +157,9 @@ fn the_proof_of_a_rounding_bound_says_what_its_errors_are() {
     assert_eq!(
         bound[4..],
         [
-            "s₃ = 2ᵖ a e₁ + 2ᵖ a + a > 0, as it is a e₁ s₁ + 4 a e₁ + a s₁ + 5 a with |eᵢ|, |tᵢ| ≤ 1",
-            "the bound − it is s₂ / ((2ᵖ + 1) 2ᵖ) > 0",
-            "the bound + it is s₃ / ((2ᵖ + 1) 2ᵖ) > 0",
+            "s₃ = 2ᵖ a e₁ + 2ᵖ a + a > 0, as it is a e₁ s₁ + 4 a e₁ + a s₁ + 5 a",
+            "the bound − it is s₂ / ((2ᵖ + 1) 2ᵖ) ≥ 0",
+            "the bound + it is s₃ / ((2ᵖ + 1) 2ᵖ) ≥ 0",
         ]
     );
 }
@@ -224,14 +224,18 @@ fn each_part_of_a_proof_is_a_line() {
     let bound = lines(within("", &u, u.abs() + &a), &[&a]);
     assert_eq!(bound[0], "s₁ = u − t₁ |u| = 0, as u = t₁ |u| with |t₁| ≤ 1");
     let order = lines(non_negative("", (&a + &b).round() - a.round()), &[&b]);
-    assert_eq!(order[3], "fl(a + b) ≥ fl(a), as rounding is monotone");
+    assert_eq!(
+        order[3],
+        "s₂ = 2ᵖ b + a e₂ + b e₂ + b − a e₁ ≥ 0, as fl(a + b) ≥ fl(a), since rounding is monotone"
+    );
     let tends = limit("", &a * &u / (&u + &b), &u, &a, Rate::Equal(-&a * &b / (&u + &b)));
     assert_eq!(
-        lines(tends, &[&b, &u])[..3],
+        lines(tends, &[&b, &u])[..4],
         [
             "limit: lim [a u / (u + b)] = a for u → ∞",
             "  b + u > 0",
-            "  it is a u / (b + u), which tends to a by its degrees in u",
+            "  it is a u / (b + u)",
+            "  it tends to a by its degrees in u",
         ]
     );
 }
@@ -252,9 +256,33 @@ fn cases(proof: Vec<String>) -> Vec<String> {
     proof.into_iter().filter(|line| line.contains("case ")).collect()
 }
 
+/// Returns aⁿ.
+fn power(n: i32) -> Tree {
+    (1..n).fold(Tree::symbol("a"), |power, _| power * Tree::symbol("a"))
+}
+
+/// Returns 100 a²ⁿ, or 1000000000 a² for n = 1.
+fn long_power(n: i32) -> Tree {
+    Tree::from(if n == 1 { 1_000_000_000 } else { 100 }) * power(2 * n)
+}
+
+/// Returns `true` if a failure writes out the sum of `n` terms, and `false` if it has the shape of the sum.
+fn is_written(term: fn(i32) -> Tree, n: i32) -> bool {
+    let claim = equal("", (1..=n).map(term).reduce(|sum, term| sum + term).unwrap(), Tree::from(0));
+    let reason = ProofPrinter::new(&NONE).describe(&claim, &prove(&claim).unwrap_err());
+    let is_shape = reason == format!("the sides differ by a sum of {n} terms over one of 1");
+    assert_ne!(is_shape, reason.ends_with(&term(1).to_string()), "{reason}");
+    !is_shape
+}
+
 /// The shape of a formula of more than 16 terms, or 100 characters, is written in its place.
 #[test]
 fn long_formulas_have_a_shape() {
+    assert_eq!([16, 17].map(|n| is_written(power, n)), [true, false]);
+    // 100 a²⁰ + … + 100 a⁴ + 1000000000 a² has 100 characters.
+    let sum = (1..=10).rev().map(long_power).reduce(|sum, power| sum + power).unwrap();
+    assert_eq!(sum.to_string().chars().count(), 100);
+    assert_eq!([10, 11].map(|n| is_written(long_power, n)), [true, false]);
     let value = |n| {
         let sum = (0..n).fold(Tree::from(0), |sum, i| sum * Tree::symbol("a") + sum_of_symbols(1 + i % 3));
         lines(equal("", &sum + &sum, Tree::from(2) * &sum), &[]).remove(0)

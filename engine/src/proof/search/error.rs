@@ -2,7 +2,6 @@
 
 use super::algebra::Ratio;
 use super::context::Context;
-use super::symbol::Symbol;
 use crate::number::Tree;
 use crate::proof::check::{Premise, Refusal, Sign};
 use std::sync::Arc;
@@ -43,16 +42,6 @@ pub struct Quantity {
     pub(in crate::proof) value: Ratio,
     /// The assumptions.
     pub(in crate::proof) context: Arc<Context>,
-}
-
-impl Quantity {
-    /// Returns the symbols of the variables.
-    pub(in crate::proof) fn symbols(&self) -> Vec<Symbol> {
-        let mut symbols: Vec<_> =
-            self.value.variables().into_iter().filter_map(|x| self.context.symbol(x)).collect();
-        symbols.sort_unstable();
-        symbols
-    }
 }
 
 impl From<Premise> for ProofError {

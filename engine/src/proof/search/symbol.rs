@@ -2,8 +2,8 @@
 
 use crate::formula::symbols::subscripted;
 
-/// A variable in a message. The symbols of the statement come first, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// A variable in a message.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symbol {
     /// A symbol of the statement.
     Own(&'static str),
