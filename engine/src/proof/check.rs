@@ -237,25 +237,21 @@ pub fn check(statement: &Statement, goals: &[Node]) -> Result<Proof, CheckError>
     }
     for (i, (goal, node)) in statement.goals().iter().zip(goals).enumerate() {
         let problem = Problem::new(&goal.proposition, statement.hypotheses_for(goal.role));
-        let checked = problem.and_then(|problem| check_node(&problem, &mut Vec::new(), node));
+        let checked = problem.and_then(|problem| check_node(&problem, &[], node));
         checked.map_err(|reason| CheckError::Goal(i, reason))?;
     }
     Ok(Proof { statement: statement.clone(), goals: goals.into() })
 }
 
 /// Checks a proof under the assumptions of cases.
-fn check_node(problem: &Problem, cases: &mut Vec<(Polynomial, Sign)>, node: &Node) -> Checked<()> {
+fn check_node(problem: &Problem, cases: &[(Polynomial, Sign)], node: &Node) -> Checked<()> {
     match node {
+        Node::Cases(..) if cases.len() >= MAX_NESTING => Err(Refusal::TooLarge),
         Node::Cases(on, both) => {
-            if cases.len() >= MAX_NESTING {
-                return Err(Refusal::TooLarge);
-            }
-            for (node, sign) in both.iter().zip([Sign::Positive, Sign::NonPositive]) {
-                cases.push((on.clone(), sign));
-                check_node(problem, cases, node)?;
-                cases.pop();
-            }
-            Ok(())
+            let mut both = both.iter().zip([Sign::Positive, Sign::NonPositive]);
+            both.try_for_each(|(node, sign)| {
+                check_node(problem, &[cases, &[(on.clone(), sign)]].concat(), node)
+            })
         }
         Node::Leaf(steps) => {
             let mut state = State::new(problem, cases)?;

@@ -40,13 +40,9 @@ impl State<'_> {
 
     /// Returns the sign of a form, term by term, for the signs of its variables.
     fn sign_of_form(&self, form: &Polynomial, signs: &[Sign]) -> Checked<Sign> {
-        for side in [Sign::NonNegative, Sign::NonPositive] {
-            let sign = self.sign_by_bound(form, signs, side)?;
-            if sign != Sign::Any {
-                return Ok(sign);
-            }
-        }
-        Err(Refusal::Form)
+        let bounds = [Sign::NonNegative, Sign::NonPositive].map(|side| self.sign_by_bound(form, signs, side));
+        let [above, below] = bounds;
+        [above?, below?].into_iter().find(|sign| *sign != Sign::Any).ok_or(Refusal::Form)
     }
 
     /// Returns the sign of a form f that follows from that of a form g, where f − g has the sign `side`.

@@ -23,7 +23,6 @@ use super::table::Atom;
 use super::{Checked, Refusal};
 use crate::formula::Relation;
 use std::cmp::Ordering;
-use std::iter;
 
 impl State<'_> {
     /// Returns the variable of the limit.
@@ -36,19 +35,16 @@ impl State<'_> {
     /// and the leading coefficients of the numerator and of the factors of the denominator. They must not depend
     /// on the variable in any other way.
     pub fn leading(&self, of: &Quotient) -> Checked<(i32, Vec<Polynomial>)> {
-        let x = self.variable_of_limit()?;
-        let (mut excess, mut coefficients) =
-            (2 * i32::from(of.num.degree(x)), Vec::with_capacity(1 + of.den.len()));
-        let den = of.den.iter().map(|i| Ok(&self.facts.get(*i)?.0));
-        for part in iter::once(Ok(&of.num)).chain(den) {
-            let part = part?;
-            if !part.has_only(|y| x == y || !self.problem.varies(y)) {
-                return Err(Refusal::Limit);
-            }
-            excess -= i32::from(part.degree(x));
-            coefficients.push(part.coefficient(x, part.degree(x)));
+        let (x, mut parts) = (self.variable_of_limit()?, vec![&of.num]);
+        for i in &of.den {
+            parts.push(&self.facts.get(*i)?.0);
         }
-        Ok((excess, coefficients))
+        if !parts.iter().all(|part| part.has_only(|y| x == y || !self.problem.varies(y))) {
+            return Err(Refusal::Limit);
+        }
+        let degrees: i32 = parts.iter().map(|part| i32::from(part.degree(x))).sum();
+        let coefficients = parts.iter().map(|part| part.coefficient(x, part.degree(x)));
+        Ok((2 * i32::from(of.num.degree(x)) - degrees, coefficients.collect()))
     }
 
     /// Returns the numbers of the facts that these quantities are not 0.

@@ -62,10 +62,6 @@ impl Polynomial {
         self.0.is_empty()
     }
 
-    fn is_one(&self) -> bool {
-        matches!(&self.0[..], [(powers, 1)] if *powers == [0; MAX_VARIABLES])
-    }
-
     /// Returns the variable if the polynomial is a single one.
     pub fn as_variable(&self) -> Option<usize> {
         let [(powers, 1)] = &self.0[..] else { return None };
@@ -90,7 +86,7 @@ impl Polynomial {
 
     /// Returns the product.
     pub fn times(&self, other: &Self, effort: &Effort) -> Checked<Self> {
-        if other.is_one() {
+        if *other == Polynomial::constant(1) {
             return Ok(self.clone());
         }
         let count = self.0.len().saturating_mul(other.0.len());

@@ -38,9 +38,11 @@ pub fn check_premises(statement: &Statement) -> Result<(), Premise> {
         return Err(Premise::NoGoals);
     }
     check_names(statement)?;
-    let rounds = statement.trees().any(Tree::contains_rounding);
+    let has_limit = statement.conclusion().is_some_and(|sequence| sequence.limit.is_some());
+    let is_smooth = has_limit || statement.goals().iter().any(|goal| goal.proposition.variable().is_some());
     // A computed quantity varies with its operands, which its symbol does not show.
-    if (rounds || !statement.computed().is_empty()) && has_continuous_variable(statement) {
+    let varies = statement.trees().any(Tree::contains_rounding) || !statement.computed().is_empty();
+    if is_smooth && varies {
         return Err(Premise::Discontinuous);
     }
     Ok(())
@@ -100,12 +102,6 @@ fn refuse<'t>(
 fn is_name_of_proof(name: &str) -> bool {
     let digits = name.strip_prefix(['e', 's', 't']).unwrap_or_default();
     !digits.is_empty() && digits.chars().all(|digit| ('₀'..='₉').contains(&digit))
-}
-
-/// Returns `true` if a statement has a limit, or a derivative with respect to a symbol.
-fn has_continuous_variable(statement: &Statement) -> bool {
-    let has_limit = statement.conclusion().is_some_and(|sequence| sequence.limit.is_some());
-    has_limit || statement.goals().iter().any(|goal| goal.proposition.variable().is_some())
 }
 
 #[cfg(test)]

@@ -129,15 +129,15 @@ impl<'p> State<'p> {
                 (self.facts.sum(&product, -1, &other)?, Zero)
             }
             Law::AboveTangent(x) => {
-                let (exponent, power) = (self.exponent(x)?, Polynomial::variable(x)?.into());
+                let [exponent, power] = self.product(&[x])?;
                 let tangent = self.facts.sum(&Polynomial::constant(1).into(), 1, &exponent)?;
                 let is_strict = self.premise(&exponent, [Positive, Negative]).is_ok();
                 (self.facts.sum(&power, -1, &tangent)?, if is_strict { Positive } else { NonNegative })
             }
             Law::BelowPole(x) => {
-                let (exponent, power) = (self.exponent(x)?, Polynomial::variable(x)?.into());
-                let [above, below] =
-                    [1, -1].map(|n| self.facts.sum(&Polynomial::constant(2).into(), n, &exponent));
+                let [exponent, power] = self.product(&[x])?;
+                let two = Polynomial::constant(2).into();
+                let [above, below] = [1, -1].map(|n| self.facts.sum(&two, n, &exponent));
                 let product = below?.times(&power, &self.facts.effort)?;
                 (self.facts.sum(&above?, -1, &product)?, self.premise(&exponent, [Positive, NonNegative])?)
             }
@@ -240,14 +240,12 @@ impl<'p> State<'p> {
                 self.chosen(&self.facts.sum(&second, -1, &first)?, &first, &second)?
             }
             Rounded(a) => {
-                let value = self.value(a)?;
-                let effort = &self.facts.effort;
+                let (value, effort) = (self.value(a)?, &self.facts.effort);
                 let one = Polynomial::constant(1);
                 let largest = self.variable(Atom::Own(PRECISION))?.plus_multiple(1, &one, effort)?;
+                let share = self.inverse(&largest.into())?.times(&value, effort)?;
                 let error = self.variable(Atom::Error(self.problem.table.rounding(a).1))?;
-                let num = largest.plus_multiple(1, &error, effort)?;
-                let inverse = self.inverse(&largest.into())?;
-                value.times(&num.into(), effort)?.times(&inverse, effort)?
+                self.facts.sum(&value, 1, &share.times(&error.into(), effort)?)?
             }
         })
     }
