@@ -22,15 +22,11 @@ impl Polynomial {
     /// Returns the sum of terms, which may come in any order.
     pub fn new(mut terms: Vec<(Powers, i128)>) -> Checked<Self> {
         terms.sort_by(|(a, _), (b, _)| a.as_slice().cmp(b));
-        let mut sums: Vec<(Powers, i128)> = Vec::with_capacity(terms.len());
-        for (powers, number) in terms {
-            match sums.last_mut() {
-                Some((last, sum)) if *last == powers => {
-                    *sum = sum.checked_add(number).ok_or(Refusal::TooLarge)?;
-                }
-                _ => sums.push((powers, number)),
-            }
-        }
+        let sums = terms.chunk_by(|(a, _), (b, _)| a == b).map(|equal| {
+            let sum = equal.iter().try_fold(0_i128, |sum, (_, number)| sum.checked_add(*number));
+            Ok((equal[0].0, sum.ok_or(Refusal::TooLarge)?))
+        });
+        let mut sums: Vec<_> = sums.collect::<Checked<_>>()?;
         sums.retain(|(_, number)| *number != 0);
         Ok(Polynomial(sums))
     }
