@@ -57,7 +57,7 @@ pub(in crate::proof) use quotient::Quotient;
 pub use sign::Sign;
 pub(in crate::proof) use state::State;
 pub use table::Atom;
-pub(in crate::proof) use table::{Problem, Table};
+pub(in crate::proof) use table::Problem;
 
 use crate::formula::statement::Statement;
 

@@ -25,10 +25,8 @@ mod equation;
 pub(in crate::proof) mod error;
 mod finder;
 mod form;
-mod knowledge;
 mod leaf;
 mod limit;
-mod number;
 pub(in crate::proof) mod rules;
 pub(in crate::proof) mod symbol;
 #[cfg(test)]
@@ -36,16 +34,14 @@ mod tests;
 
 pub use self::error::{ProofError, Quantity};
 
-use super::check::{self, Node, Polynomial, Premise, Problem, Proof, Refusal, Sign, Table, check};
+use super::check::{self, Node, Polynomial, Premise, Problem, Proof, Sign, check};
 use super::effort::{MAX_EFFORT, excess_size};
+use crate::formula::Hypothesis;
 use crate::formula::statement::{Proposition, Statement};
-use crate::formula::{Hypothesis, Relation};
 use crate::number::Tree;
-use crate::number::tree::Op;
-use algebra::{Poly, Ratio, UNKNOWN};
+use algebra::{Ratio, UNKNOWN};
 use dictionary::{integral, polynomial};
 use leaf::Search;
-use std::collections::BTreeSet;
 
 /// Maximum number of nested case distinctions.
 const MAX_NESTED_CASES: usize = 4;
@@ -93,129 +89,65 @@ pub(in crate::proof) fn prove_proposition(
 
 fn solve(proposition: &Proposition, hypotheses: Vec<&Hypothesis>) -> Result<Node, ProofError> {
     let problem = Problem::new(proposition, hypotheses)?;
-    let found = Attempt { problem: &problem }.certify(&[]);
-    found.map_err(|reason| {
+    certify(&problem, &[]).map_err(|reason| {
         let is_unknown = reason.quantity().is_some_and(|of| of.value.variables().contains(&UNKNOWN));
         if problem.effort.is_exceeded() || is_unknown { ProofError::TooLarge(MAX_EFFORT) } else { reason }
     })
 }
 
-/// A decision on the way to a leaf, before the hypothesis at a place in their order.
+/// The case that a quantity has a sign.
 #[derive(Clone, Debug)]
-pub enum Decision {
-    /// The case of a quantity with this sign.
-    Case {
-        /// The number of hypotheses before it.
-        at: usize,
-        /// The quantity in the symbols that remain there.
-        deciding: Poly,
-        /// The quantity as a polynomial of the checker.
-        on: Polynomial,
-        /// The quotient of the two.
-        scale: Ratio,
-        /// The sign.
-        sign: Sign,
-    },
-    /// The replacement of a formula by a multiple of its absolute value.
-    Size {
-        /// The number of hypotheses before it.
-        at: usize,
-        /// The formula.
-        of: usize,
-        /// Twice its value.
-        twice: Ratio,
-    },
+pub struct Case {
+    /// The number of hypotheses before it.
+    at: usize,
+    /// The quantity.
+    on: Polynomial,
+    /// The sign.
+    sign: Sign,
 }
 
-/// An attempt to solve a problem.
-struct Attempt<'a> {
-    problem: &'a Problem<'a>,
+/// Returns a proof in nested cases.
+fn certify(problem: &Problem, cases: &[Case]) -> Result<Node, ProofError> {
+    let mut search = Search::new(problem, cases)?;
+    let Err(failure) = search.read(cases) else { return Ok(Node::Leaf(search.proof.steps)) };
+    let found = match &failure {
+        ProofError::UndecidedBranch(of) => both_cases(&search, cases, search.position, &of.value),
+        _ => Err(failure),
+    };
+    // An absolute value that does not suffice is replaced by cases.
+    search.sizes.iter().rev().fold(found, |found, (at, twice)| {
+        found.or_else(|reason| both_cases(&search, cases, *at, twice).map_err(|_| reason))
+    })
 }
 
-impl<'a> Attempt<'a> {
-    /// Returns a proof under the assumptions of these decisions.
-    fn certify(&self, decisions: &[Decision]) -> Result<Node, ProofError> {
-        let mut search = Search::new(self.problem, decisions)?;
-        let failure = match self.read(&mut search, decisions) {
-            Ok(()) => return Ok(Node::Leaf(search.proof.steps)),
-            Err(failure) => self.explained(&search, failure),
-        };
-        let script = [decisions, &search.sizes].concat();
-        let found = match &failure {
-            ProofError::UndecidedBranch(of) => self.cases(&search, &script, search.position, &of.value),
-            _ => Err(failure.clone()),
-        };
-        // An absolute value that does not suffice is replaced by cases.
-        (0..search.sizes.len()).rev().fold(found, |found, i| {
-            let Decision::Size { at, twice, .. } = &search.sizes[i] else { return found };
-            found.or_else(|reason| {
-                let script = &script[..decisions.len() + i];
-                self.cases(&search, script, *at, twice).map_err(|_| reason)
-            })
-        })
+/// Returns a proof in the two cases of a quantity.
+fn both_cases(search: &Search, cases: &[Case], at: usize, value: &Ratio) -> Result<Node, ProofError> {
+    let known = &search.known;
+    if cases.len() >= MAX_NESTED_CASES {
+        return Err(ProofError::UndecidedBranch(known.quantity(value.clone())));
     }
+    let original = known.original(&known.sign_numerator(value).into());
+    let [on] = integral([original.num()]);
+    let on = polynomial(&on).ok_or("the quantity of a case")?;
+    let nodes = [Sign::Positive, Sign::NonPositive].into_iter().map(|sign| {
+        let case = Case { at, on: on.clone(), sign };
+        certify(search.problem(), &[cases, &[case]].concat())
+    });
+    let nodes = nodes.collect::<Result<Vec<_>, _>>()?;
+    let both = <[Node; 2]>::try_from(nodes).map_err(|_| "both cases")?;
+    Ok(Node::Cases(on, both.into()))
+}
 
-    /// Returns the reason for which a goal does not follow from the steps found.
-    fn explained(&self, search: &Search, failure: ProofError) -> ProofError {
-        let is_at_end = search.position == self.problem.hypotheses.len();
-        let is_limit = self.problem.variable().is_some();
-        let required = match failure {
-            ProofError::UnknownSign(_) | ProofError::Refused(Refusal::Limit) if is_limit && is_at_end => {
-                search.proof.state.clone().value(self.problem.goal[0]).ok()
-            }
-            ProofError::Refused(Refusal::Goal) => search.required.clone(),
-            _ => None,
-        };
-        let Some(required) = required else { return failure };
-        let value = search.known.reduced_quotient(&required, &search.proof.state);
-        let quantity = search.known.quantity(value.clone());
-        match search.known.sign(value) {
-            _ if is_limit => ProofError::UnknownLimit(quantity),
-            Some(signed) => ProofError::WrongSign(quantity, signed.sign()),
-            None => failure,
-        }
-    }
-
-    /// Returns a proof in the two cases of a quantity.
-    fn cases(
-        &self,
-        search: &Search,
-        script: &[Decision],
-        at: usize,
-        value: &Ratio,
-    ) -> Result<Node, ProofError> {
-        if script.iter().filter_map(case).count() >= MAX_NESTED_CASES {
-            return Err(ProofError::UndecidedBranch(search.known.quantity(value.clone())));
-        }
-        let known = &search.known;
-        let deciding = known.context.sign_numerator(value);
-        let original = known.original(&deciding.clone().into());
-        let (on, _) = integral(original.num(), original.num());
-        let scale = original.checked_div(&on.clone().into()).ok_or("a case of nothing")?;
-        let on = polynomial(&on).ok_or("the quantity of a case")?;
-        let mut nodes = Vec::with_capacity(2);
-        for sign in [Sign::Positive, Sign::NonPositive] {
-            let (deciding, on, scale) = (deciding.clone(), on.clone(), scale.clone());
-            let case = Decision::Case { at, deciding, on, scale, sign };
-            nodes.push(self.certify(&[script, &[case]].concat())?);
-        }
-        let both = <[Node; 2]>::try_from(nodes).map_err(|_| "both cases")?;
-        Ok(Node::Cases(on, both.into()))
-    }
-
+impl Search<'_> {
     /// Lists the steps to the goal.
-    fn read(&self, search: &mut Search<'a>, decisions: &[Decision]) -> Result<(), ProofError> {
-        let (order, mut read) = (self.order(), BTreeSet::new());
+    fn read(&mut self, cases: &[Case]) -> Result<(), ProofError> {
+        let order = self.order();
         for (position, i) in order.iter().enumerate() {
-            search.follow(position, decisions);
-            let interval = self.problem.hypotheses[*i].interval();
-            if interval.is_none_or(|(x, ..)| read.insert(x)) {
-                search.assume(*i).map_err(|reason| self.not_assumed(*i, reason))?;
-            }
+            self.follow(position, cases);
+            self.assume(*i).map_err(|reason| self.not_assumed(*i, reason))?;
         }
-        search.follow(order.len(), decisions);
-        self.orders().into_iter().try_for_each(|[a, b]| search.order(a, b))?;
-        search.goal()
+        self.follow(order.len(), cases);
+        self.goal()
     }
 
     /// Returns the reason for which a hypothesis is not used. One on the variable of a limit is named, unless cases may
@@ -223,67 +155,23 @@ impl<'a> Attempt<'a> {
     fn not_assumed(&self, i: usize, reason: ProofError) -> ProofError {
         match reason {
             ProofError::UndecidedBranch(_) | ProofError::NotExpressed(_) => reason,
-            _ if !self.problem.mentions_variable(i) => reason,
-            _ => ProofError::EndingHypothesis(self.problem.hypotheses[i].value.clone()),
+            _ if !self.problem().mentions_variable(i) => reason,
+            _ => ProofError::EndingHypothesis(self.problem().hypotheses[i].value.clone()),
         }
     }
 
     /// Returns the numbers of the hypotheses: intervals before what mentions their symbols, and those on the
     /// variable of a limit last.
     fn order(&self) -> Vec<usize> {
-        let hypotheses = &self.problem.hypotheses;
+        let hypotheses = &self.problem().hypotheses;
         let bounded: Vec<_> = hypotheses.iter().filter_map(|h| h.interval()).map(|(x, ..)| x).collect();
         let mut order: Vec<_> = (0..hypotheses.len()).collect();
         order.sort_by_key(|i| {
             let (hypothesis, symbols) = (hypotheses[*i], hypotheses[*i].value.symbols());
             let own = hypothesis.interval().map(|(x, ..)| x);
             let waits = bounded.iter().any(|x| symbols.contains(x) && own != Some(*x));
-            (self.problem.mentions_variable(*i), waits, waits && own.is_none())
+            (self.problem().mentions_variable(*i), waits, waits && own.is_none())
         });
         order
-    }
-
-    /// Returns the pairs of rounded formulas whose order the goal rests on.
-    fn orders(&self) -> Vec<[usize; 2]> {
-        let (table, mut pairs) = (&self.problem.table, Vec::new());
-        if let Proposition::Sign(Relation::NonNegative, _) = self.problem.proposition
-            && let Ok(Op::Sub(a, b)) = table.op(self.problem.goal[0])
-            && let (Ok(Op::Rounded(_)), Ok(Op::Rounded(_))) = (table.op(a), table.op(b))
-        {
-            collect_orders(table, a, b, &mut pairs);
-        }
-        pairs
-    }
-}
-
-/// Returns the quantity of a case, and its sign, if the decision is one.
-fn case(decision: &Decision) -> Option<(Polynomial, Sign)> {
-    if let Decision::Case { on, sign, .. } = decision { Some((on.clone(), *sign)) } else { None }
-}
-
-/// Collects pairs of formulas inside two others, operation by operation, whose roundings have an order.
-fn collect_orders(table: &Table, a: usize, b: usize, all: &mut Vec<[usize; 2]>) {
-    use Op::*;
-    let (Ok(first), Ok(second)) = (table.op(a), table.op(b)) else { return };
-    match (first, second) {
-        _ if a == b => {}
-        (Rounded(c), Rounded(d)) => {
-            collect_orders(table, c, d, all);
-            all.push([a, b]);
-        }
-        (PositivePart(a), PositivePart(b)) => collect_orders(table, a, b, all),
-        (Neg(a), Neg(b)) => collect_orders(table, b, a, all),
-        (Add(a, c), Add(b, d)) | (Min(a, c), Min(b, d)) => {
-            collect_orders(table, a, b, all);
-            collect_orders(table, c, d, all);
-        }
-        (Sub(a, c), Sub(b, d)) => {
-            collect_orders(table, a, b, all);
-            collect_orders(table, d, c, all);
-        }
-        (Mul(f, a), Mul(g, b)) | (Mul(a, f), Mul(b, g)) | (Div(a, f), Div(b, g)) if f == g => {
-            collect_orders(table, a, b, all);
-        }
-        _ => {}
     }
 }

@@ -39,7 +39,8 @@ impl ProofPrinter<'_> {
         let variables =
             quantity.flat_map(|of| of.value.variables().into_iter().map(move |x| (x, &of.context)));
         let definitions = variables.filter_map(|(x, context)| {
-            let name = context.symbol(x)?.name();
+            let symbol = context.symbol(x).filter(|symbol| !matches!(symbol, Symbol::Own(_)))?;
+            let name = symbol.name();
             if message.contains(name) { printer.definition(x, name, context) } else { None }
         });
         let definitions: Vec<_> = definitions.collect();
@@ -47,7 +48,7 @@ impl ProofPrinter<'_> {
         message + separator + &definitions.join(" and ")
     }
 
-    /// Returns the definition of a variable of the search, unless it is a symbol of the statement.
+    /// Returns the definition of a variable of the search other than a symbol of the statement.
     fn definition(&self, x: usize, name: &'static str, context: &Context) -> Option<String> {
         if let Some(Symbol::Error(i)) = context.symbol(x) {
             let of = context.roundings.get(usize::from(i))?;
@@ -55,12 +56,14 @@ impl ProofPrinter<'_> {
             return Some(format!("{} = {} with |{name}| ≤ 1", self.rounding(of), self.text(&(of * factor))));
         }
         context.assumptions.iter().find_map(|assumption| match (&assumption.usage, &assumption.hypothesis) {
-            (AssumptionUse::Pivot(_, _, Some(slack)), Some(hypothesis)) if *slack == x => {
-                let divisor = assumption.divisor.as_ref().and_then(|by| self.quotient(by, context));
-                let value = divisor.map_or(hypothesis.value.clone(), |by| &hypothesis.value / by);
-                Some(format!("{name} = {} {} 0", self.text(&value), hypothesis.relation))
+            (AssumptionUse::Variable(slack), Some(hypothesis)) if *slack == x => {
+                let value = match assumption.is_divided() {
+                    true => self.ratio(&assumption.value, context),
+                    false => self.text(&hypothesis.value),
+                };
+                Some(format!("{name} = {value} {} 0", hypothesis.relation))
             }
-            (AssumptionUse::Pivot(_, _, Some(slack)), None) if *slack == x => {
+            (AssumptionUse::Variable(slack), None) if *slack == x => {
                 Some(format!("{name} ≥ 0 in one case of the proof"))
             }
             (AssumptionUse::Interval(parameter), Some(hypothesis)) if *parameter == x => {
@@ -78,7 +81,7 @@ impl ProofPrinter<'_> {
 
     /// Returns a polynomial of the search as a formula, if it is short.
     fn poly(&self, of: &Poly, context: &Context) -> Option<Tree> {
-        self.sum(of.terms().map(|(monomial, q)| ((**q).clone(), monomial.powers())), &|x| {
+        self.sum(of.terms().map(|(monomial, q)| (q.clone(), monomial.powers())), &|x| {
             let symbol = context.symbol(x).map(|symbol| Tree::symbol(symbol.name()));
             symbol.or_else(|| context.exponentials.get(&x).cloned())
         })

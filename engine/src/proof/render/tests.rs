@@ -185,10 +185,9 @@ fn cases_are_indented() {
 #[test]
 fn an_identity_shows_each_sign() {
     let [a, b, u] = ["a", "b", "u"].map(|name| Tree::symbol(name));
-    let square = &a * &a - &a + Tree::from(1);
     assert_eq!(
-        lines(positive("", &a * &square), &[&a]),
-        ["s₁ = 4 a² + 1 − 4 a ≥ 0", "a³ + a − a² > 0, as 4 times it is a s₁ + 3 a"]
+        lines(positive("", &a * &u * &u - &a * &u + &a), &[&a]),
+        ["s₁ = 4 a² u² + a² − 4 a² u ≥ 0", "a u² + a − a u > 0, as 4 a times it is 3 a² + s₁"]
     );
     let given = [Hypothesis::new(Relation::NonNegative, u.clone()), Hypothesis::near(&u, &a, &b)];
     let near = lines(non_negative("", Tree::from(2) * &u + &b).assuming(&given), &[&b]);

@@ -6,9 +6,9 @@
 //! cross-multiplication. If the denominator divides the numerator, the division is carried out, which shortens
 //! printed proofs.
 
-pub use super::number::Number;
 use crate::operators;
 use crate::proof::check::MAX_VARIABLES;
+use rug::{Complete, Rational};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -67,38 +67,23 @@ impl Monomial {
         self.powers.iter().copied().enumerate().filter(|(_, n)| *n > 0)
     }
 
-    /// Returns the number of variables.
-    pub fn count(&self) -> usize {
-        self.powers.iter().map(|n| u8::from(*n > 0)).sum::<u8>().into()
-    }
-
-    /// Adds the variables to a set.
-    pub fn add_variables(&self, set: &mut [bool; VARIABLES]) {
-        set.iter_mut().zip(&self.powers).for_each(|(is_in, n)| *is_in |= *n > 0);
+    /// Returns the monomial whose powers are a function of those of two others.
+    fn zip(&self, other: &Self, of: impl Fn(u8, u8) -> u8) -> Self {
+        let mut powers = self.powers;
+        powers.iter_mut().zip(&other.powers).for_each(|(n, m)| *n = of(*n, *m));
+        Monomial { powers }
     }
 
     /// Returns the product; the [unknown](UNKNOWN) variable if a power would exceed 254, to which only repeated
     /// substitution of pivots leads.
     pub fn times(&self, other: &Self) -> Self {
-        let (mut powers, mut largest) = (self.powers, 0);
-        for (n, m) in powers.iter_mut().zip(&other.powers) {
-            *n = n.saturating_add(*m);
-            largest = largest.max(*n);
-        }
-        if largest == u8::MAX {
-            return Monomial::of(UNKNOWN);
-        }
-        Monomial { powers }
+        let product = self.zip(other, u8::saturating_add);
+        if product.powers.contains(&u8::MAX) { Monomial::of(UNKNOWN) } else { product }
     }
 
     /// Returns the quotient if the divisor divides `self`.
     pub fn checked_div(&self, divisor: &Self) -> Option<Self> {
-        if !self.is_divisible_by(divisor) {
-            return None;
-        }
-        let mut rest = self.clone();
-        rest.powers.iter_mut().zip(&divisor.powers).for_each(|(n, m)| *n -= m);
-        Some(rest)
+        self.is_divisible_by(divisor).then(|| self.zip(divisor, |n, m| n - m))
     }
 
     /// Returns `true` if `other` divides `self`.
@@ -107,34 +92,29 @@ impl Monomial {
     }
 
     /// Returns the greatest common divisor.
-    pub fn common(mut self, other: &Self) -> Self {
-        self.powers.iter_mut().zip(&other.powers).for_each(|(n, m)| *n = (*n).min(*m));
-        self
+    pub fn common(&self, other: &Self) -> Self {
+        self.zip(other, u8::min)
     }
 
     /// Returns the product of the powers of those variables for which `is_in` is `true`.
     pub fn only(&self, is_in: impl Fn(usize) -> bool) -> Self {
-        let mut rest = self.clone();
-        rest.powers.iter_mut().enumerate().filter(|(x, _)| !is_in(*x)).for_each(|(_, n)| *n = 0);
-        rest
+        let mut powers = self.powers;
+        powers.iter_mut().enumerate().filter(|(x, _)| !is_in(*x)).for_each(|(_, n)| *n = 0);
+        Monomial { powers }
     }
 
     /// Returns the degree in a variable.
     pub fn degree(&self, x: usize) -> u8 {
         self.powers[x]
     }
-
-    /// Returns the monomial without a variable.
-    pub fn without(&self, x: usize) -> Self {
-        let mut rest = self.clone();
-        rest.powers[x] = 0;
-        rest
-    }
 }
 
 /// A polynomial, as its monomials in ascending order with their nonzero coefficients.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Poly(Arc<Vec<(Monomial, Number)>>);
+pub struct Poly(Arc<Vec<(Monomial, Rational)>>);
+
+/// Maximum number of binary digits of a coefficient; the checker accepts 127.
+const MAX_BITS: u32 = 4096;
 
 /// Maximum number of terms of a product, before equal ones are added, and of steps of a division.
 const MAX_TERMS: usize = 1 << 18;
@@ -147,8 +127,8 @@ pub struct Ratio {
 }
 
 /// Adds terms, which may come in any order.
-impl FromIterator<(Monomial, Number)> for Poly {
-    fn from_iter<I: IntoIterator<Item = (Monomial, Number)>>(terms: I) -> Self {
+impl FromIterator<(Monomial, Rational)> for Poly {
+    fn from_iter<I: IntoIterator<Item = (Monomial, Rational)>>(terms: I) -> Self {
         Poly::new(terms.into_iter().collect())
     }
 }
@@ -163,28 +143,23 @@ operators! { [] Poly;
     Add add |a, b| a.plus(b);
     Sub sub |a, b| a.plus(&-b);
     Mul mul |a, b| a.times(b);
-    - |a| Poly(a.terms().map(|(m, q)| (m.clone(), -q)).collect::<Vec<_>>().into())
+    - |a| Poly(a.terms().map(|(m, q)| (m.clone(), (-q).complete())).collect::<Vec<_>>().into())
 }
 
 impl Poly {
-    /// Returns the sum of terms, which may come in any order.
-    fn new(mut terms: Vec<(Monomial, Number)>) -> Self {
+    /// Returns the sum of terms, which may come in any order; the unknown quantity if a coefficient is too large.
+    fn new(mut terms: Vec<(Monomial, Rational)>) -> Self {
         // Terms of sums and products come in sorted runs, which this sort merges.
         terms.sort_by(|(m, _), (n, _)| m.cmp(n));
         terms.dedup_by(|(m, q), (n, sum)| {
             let is_duplicate = m == n;
             if is_duplicate {
-                *sum = &*sum + &*q;
+                *sum += &*q;
             }
             is_duplicate
         });
-        Poly::of_sorted(terms)
-    }
-
-    /// Returns the sum of distinct terms in ascending order; the unknown quantity if a coefficient is too large.
-    fn of_sorted(mut terms: Vec<(Monomial, Number)>) -> Self {
         terms.retain(|(_, q)| q.cmp0().is_ne());
-        if terms.iter().any(|(_, q)| q.is_too_large()) {
+        if terms.iter().any(|(_, q)| q.numer().significant_bits() + q.denom().significant_bits() > MAX_BITS) {
             return Poly::unknown();
         }
         Poly(terms.into())
@@ -201,7 +176,7 @@ impl Poly {
     }
 
     /// Returns the constant `q`.
-    pub fn constant(q: impl Into<Number>) -> Self {
+    pub fn constant(q: impl Into<Rational>) -> Self {
         Poly::from_iter([(Monomial::one(), q.into())])
     }
 
@@ -211,22 +186,7 @@ impl Poly {
     }
 
     fn plus(&self, other: &Self) -> Self {
-        let count = self.0.len() + other.0.len();
-        let (mut sums, mut rest) = (Vec::with_capacity(count), &self.0[..]);
-        for (m, q) in other.0.iter() {
-            let before = rest.iter().take_while(|(n, _)| n < m).count();
-            sums.extend_from_slice(&rest[..before]);
-            rest = &rest[before..];
-            match rest {
-                [(n, p), others @ ..] if m == n => {
-                    sums.push((m.clone(), p + q));
-                    rest = others;
-                }
-                _ => sums.push((m.clone(), q.clone())),
-            }
-        }
-        sums.extend_from_slice(rest);
-        Poly::of_sorted(sums)
+        Poly::new([&self.0[..], &other.0].concat())
     }
 
     fn times(&self, other: &Self) -> Self {
@@ -243,7 +203,7 @@ impl Poly {
         }
         let mut terms = Vec::with_capacity(count);
         for (m, p) in short.0.iter() {
-            terms.extend(long.0.iter().map(|(n, q)| (m.times(n), p * q)));
+            terms.extend(long.0.iter().map(|(n, q)| (m.times(n), (p * q).complete())));
         }
         Poly::new(terms)
     }
@@ -255,11 +215,11 @@ impl Poly {
 
     /// Returns `true` if `self` is the number 1.
     pub fn is_one(&self) -> bool {
-        matches!(&self.0[..], [(m, q)] if *m == Monomial::one() && **q == 1)
+        matches!(&self.0[..], [(m, q)] if *m == Monomial::one() && *q == 1)
     }
 
     /// Returns the monomials in ascending order with their coefficients.
-    pub fn terms(&self) -> impl DoubleEndedIterator<Item = (&Monomial, &Number)> + ExactSizeIterator {
+    pub fn terms(&self) -> impl DoubleEndedIterator<Item = (&Monomial, &Rational)> + ExactSizeIterator {
         self.0.iter().map(|(m, q)| (m, q))
     }
 
@@ -269,13 +229,7 @@ impl Poly {
 
     /// Returns the variables in order.
     pub fn variables(&self) -> Vec<usize> {
-        let mut set = [false; VARIABLES];
-        self.add_variables(&mut set);
-        listed(&set)
-    }
-
-    fn add_variables(&self, set: &mut [bool; VARIABLES]) {
-        self.monomials().for_each(|monomial| monomial.add_variables(set));
+        variables(self.monomials())
     }
 
     /// Returns the degree in a variable.
@@ -286,7 +240,7 @@ impl Poly {
     /// Returns the coefficient of xⁿ.
     pub fn coefficient(&self, x: usize, n: u8) -> Poly {
         let of_power = self.0.iter().filter(|(m, _)| m.degree(x) == n);
-        of_power.map(|(m, q)| (m.without(x), q.clone())).collect()
+        of_power.map(|(m, q)| (m.only(|y| y != x), q.clone())).collect()
     }
 
     /// Returns the coefficients of x⁰ to xᴺ⁻¹ if the degree in x is N − 1.
@@ -305,7 +259,7 @@ impl Poly {
         if ends.into_iter().any(|(term, by)| term.is_some_and(|(m, _)| !m.is_divisible_by(by))) {
             return None;
         }
-        let inverse = Number::from(coefficient.recip_ref());
+        let inverse = coefficient.recip_ref().complete();
         let mut rest: BTreeMap<_, _> = self.0.iter().cloned().collect();
         let (mut quotient, mut steps) = (Vec::new(), 0);
         while let Some((m, q)) = rest.pop_last() {
@@ -318,24 +272,18 @@ impl Poly {
                 return None;
             }
             for (dm, dq) in others {
-                let remainder = rest.entry(dm.times(&m)).or_insert_with(|| 0.into());
-                *remainder = &*remainder - dq * &q;
+                *rest.entry(dm.times(&m)).or_default() -= (dq * &q).complete();
             }
             quotient.push((m, q));
         }
         Some(quotient.into_iter().collect())
     }
 
-    /// Returns the exact quotient by a divisor other than 1, if there is one.
-    fn cancel(&self, divisor: &Self) -> Option<Self> {
-        if divisor.is_one() { None } else { self.checked_div(divisor) }
-    }
-
     /// Returns the greatest product of powers of variables that divides every term.
     pub fn common_monomial(&self) -> Monomial {
         let mut monomials = self.monomials();
         let first = monomials.next().cloned().unwrap_or_else(Monomial::one);
-        monomials.fold(first, Monomial::common)
+        monomials.fold(first, |common, monomial| common.common(monomial))
     }
 
     /// Replaces each occurrence of a monomial by a quotient.
@@ -343,7 +291,7 @@ impl Poly {
     /// The value does not change wherever the monomial equals the quotient.
     pub fn replace(&self, pivot: &Monomial, by: &Ratio) -> Ratio {
         // The coefficients of the powers of the pivot.
-        let mut by_power: Vec<Vec<(Monomial, Number)>> = Vec::new();
+        let mut by_power: Vec<Vec<(Monomial, Rational)>> = Vec::new();
         for (m, q) in self.0.iter() {
             let (mut rest, mut power) = (m.clone(), 0);
             while let Some(quotient) = rest.checked_div(pivot) {
@@ -397,14 +345,11 @@ impl Ratio {
 
     /// Creates a quotient, whose denominator must not be the zero polynomial.
     fn new(mut num: Poly, mut den: Poly) -> Self {
-        if num.is_zero() || den.is_one() {
-            return num.into();
-        }
         if let Some(quotient) = num.checked_div(&den) {
             return quotient.into();
         }
         if let Some((_, q)) = den.0.last()
-            && **q != 1
+            && *q != 1
         {
             let inverse = Poly::constant(q.recip_ref());
             (num, den) = (num * &inverse, den * inverse);
@@ -413,9 +358,6 @@ impl Ratio {
     }
 
     fn plus(&self, other: &Self) -> Self {
-        if self.den == other.den {
-            return Ratio::new(&self.num + &other.num, self.den.clone());
-        }
         if let Some(k) = other.den.checked_div(&self.den) {
             return Ratio::new(&self.num * k + &other.num, other.den.clone());
         }
@@ -427,7 +369,7 @@ impl Ratio {
 
     fn times(&self, other: &Self) -> Self {
         // Cancels denominators that divide the opposite numerator.
-        let (a, b) = (self.num.cancel(&other.den), other.num.cancel(&self.den));
+        let (a, b) = (self.num.checked_div(&other.den), other.num.checked_div(&self.den));
         let one = Poly::constant(1);
         let (c, d) = (b.as_ref().map_or(&self.den, |_| &one), a.as_ref().map_or(&other.den, |_| &one));
         Ratio::new(a.as_ref().unwrap_or(&self.num) * b.as_ref().unwrap_or(&other.num), c * d)
@@ -437,9 +379,6 @@ impl Ratio {
     pub fn checked_div(&self, other: &Self) -> Option<Self> {
         if other.is_zero() {
             return None;
-        }
-        if other.num.is_one() && other.den.is_one() {
-            return Some(self.clone());
         }
         Some(self * Ratio::new(other.den.clone(), other.num.clone()))
     }
@@ -451,9 +390,7 @@ impl Ratio {
 
     /// Returns the variables of numerator and denominator in order.
     pub fn variables(&self) -> Vec<usize> {
-        let mut set = [false; VARIABLES];
-        [&self.num, &self.den].into_iter().for_each(|part| part.add_variables(&mut set));
-        listed(&set)
+        variables(self.num.monomials().chain(self.den.monomials()))
     }
 
     /// Replaces a monomial by a quotient; see [`Poly::replace`].
@@ -471,9 +408,10 @@ impl Ratio {
     }
 }
 
-/// Returns the elements of a set in order.
-fn listed(set: &[bool; VARIABLES]) -> Vec<usize> {
-    (0..VARIABLES).filter(|x| set[*x]).collect()
+/// Returns the variables of monomials in order.
+fn variables<'a>(monomials: impl Iterator<Item = &'a Monomial>) -> Vec<usize> {
+    let all = monomials.fold(Monomial::one(), |all, monomial| all.zip(monomial, u8::max));
+    all.powers().map(|(x, _)| x).collect()
 }
 
 #[cfg(test)]
@@ -536,7 +474,7 @@ mod tests {
         let terms = |count: u16, x: usize| {
             let power = |n: u16, x: usize| (0..n).fold(Monomial::one(), |m, _| m.times(&Monomial::of(x)));
             let monomials = (0..count).map(|i| power(i % 64, x).times(&power(i / 64, x + 1)));
-            monomials.map(|m| (m, Number::from(1))).collect::<Poly>()
+            monomials.map(|m| (m, Rational::from(1))).collect::<Poly>()
         };
         let [a, b, more] = [terms(512, 0), terms(512, 2), terms(513, 2)];
         assert_eq!((&a * &b).terms().len(), MAX_TERMS);

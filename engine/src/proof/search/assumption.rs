@@ -1,6 +1,6 @@
 //! The assumptions of a search, and signs under them.
 
-use super::algebra::{Monomial, Ratio};
+use super::algebra::{Monomial, Poly, Ratio};
 use super::rules::Certificate;
 use crate::formula::Hypothesis;
 use crate::proof::check::Sign;
@@ -8,33 +8,47 @@ use crate::proof::check::Sign;
 /// An assumption and its use.
 #[derive(Clone, Debug)]
 pub struct Assumption {
-    /// The hypothesis, or `None` for the assumption of a case and for an absolute value.
+    /// The hypothesis, or `None` for the assumption of a case, a law, and an absolute value.
     pub hypothesis: Option<Hypothesis>,
-    /// The quantity, reduced by the earlier assumptions.
+    /// The quantity, reduced by the earlier assumptions, perhaps divided by a positive symbol.
     pub value: Ratio,
-    /// The positive divisor, if the slack variable is a quotient of the quantity.
-    pub divisor: Option<Ratio>,
+    /// The fact of the checker, except for an interval.
+    pub fact: Option<AssumedFact>,
     /// The use of the assumption.
     pub usage: AssumptionUse,
 }
 
 impl Assumption {
-    /// Returns the quantity that a slack variable replaces.
-    pub fn slack_value(&self) -> Ratio {
-        let quotient = self.divisor.as_ref().and_then(|by| self.value.checked_div(by));
-        quotient.unwrap_or_else(|| self.value.clone())
+    /// Returns `true` if the quantity is that of the hypothesis divided by a symbol.
+    pub fn is_divided(&self) -> bool {
+        self.fact.as_ref().is_some_and(|fact| !fact.scale.den().is_one())
+    }
+}
+
+/// A fact of the checker for an assumption, whose quantity is `scale` times the fact divided by other facts.
+#[derive(Clone, Debug)]
+pub struct AssumedFact {
+    pub fact: usize,
+    pub den: Vec<usize>,
+    pub scale: Ratio,
+}
+
+impl AssumedFact {
+    /// Returns the quotient of a fact and others.
+    pub fn new(fact: usize, den: Vec<usize>) -> Self {
+        AssumedFact { fact, den, scale: Poly::constant(1).into() }
     }
 }
 
 /// The use of an assumption.
 #[derive(Clone, Debug)]
 pub enum AssumptionUse {
-    /// The assumption follows from the earlier ones.
-    Implied,
-    /// The sign of a variable.
+    /// The assumption follows from the earlier ones, or is an equation without a pivot.
+    Unused,
+    /// The sign of a variable that is the quantity: a symbol, or a new slack variable, which replaces a pivot.
     Variable(usize),
-    /// A pivot, its value, and the slack variable for the quantity, unless that is 0.
-    Pivot(Monomial, Ratio, Option<usize>),
+    /// An equation that is solved for a pivot.
+    Equation(Monomial),
     /// The translator replaces a symbol by its value in an interval, with this parameter between −1 and 1.
     Interval(usize),
     /// The absolute value of the quantity is a variable.
@@ -46,10 +60,8 @@ pub enum AssumptionUse {
         /// The quantity divided by it, between −1 and 1.
         factor: usize,
     },
-    /// The quantity is retained unchanged. Multiples of it may be [subtracted](SignedRatio::less).
-    Retained,
-    /// An equation without a pivot, which is not used.
-    Unused,
+    /// The quantity of this sign is retained unchanged. Multiples of it may be [subtracted](SignedRatio::subtracted).
+    Retained(Sign),
 }
 
 /// The sign of a quotient.
@@ -76,8 +88,8 @@ impl SignedRatio {
 pub struct Multiple {
     /// The sign of the factor.
     pub factor: SignedRatio,
-    /// The quantity.
-    pub of: Ratio,
+    /// The number of the assumption about the quantity.
+    pub of: usize,
     /// The sign of the sum of the multiple and the difference.
     pub sum_sign: Sign,
 }

@@ -3,16 +3,19 @@
 //! Their variables are the same, but the search replaces pivots by slack variables. A quantity in *original* variables
 //! is a polynomial of the search without slack variables.
 
-use super::algebra::{Monomial, Number, Poly, Ratio};
-use super::knowledge::Knowledge;
+use super::algebra::{Monomial, Poly, Ratio};
+use super::assumption::AssumptionUse;
+use super::context::Context;
 use crate::proof::check::{Polynomial, Quotient, State};
-use rug::Rational;
+use rug::{Complete, Rational};
 
-impl Knowledge<'_> {
+impl Context {
     /// Returns a quantity of a derivation in original variables.
     pub fn original(&self, value: &Ratio) -> Ratio {
-        let slacks = self.slacks.iter().rev();
-        slacks.fold(value.clone(), |value, (slack, by)| value.replace(&Monomial::of(*slack), by))
+        self.assumptions.iter().rev().fold(value.clone(), |value, assumption| match assumption.usage {
+            AssumptionUse::Variable(x) => value.replace(&Monomial::of(x), &assumption.value),
+            _ => value,
+        })
     }
 
     /// Returns a quotient of the checker, without those factors of the denominator that divide the numerator.
@@ -30,35 +33,37 @@ impl Knowledge<'_> {
 
     /// Returns a polynomial of the checker, reduced.
     pub fn reduced(&self, of: &Polynomial) -> Ratio {
-        self.context.reduce(&poly(of).into())
+        self.reduce(&poly(of).into())
     }
 
     /// Returns a quotient of the checker, reduced.
     pub fn reduced_quotient(&self, of: &Quotient, state: &State) -> Ratio {
-        self.context.reduce(&self.ratio(of, state))
+        self.reduce(&self.ratio(of, state))
     }
 }
 
 /// Returns a polynomial in original variables as one of the checker.
 pub fn polynomial(of: &Poly) -> Option<Polynomial> {
-    let terms = of.terms().map(|(monomial, number)| Some((monomial.to_powers()?, number.to_integer()?)));
+    let terms = of
+        .terms()
+        .map(|(monomial, q)| Some((monomial.to_powers()?, q.numer().to_i128().filter(|_| q.is_integer())?)));
     Polynomial::new(terms.collect::<Option<_>>()?).ok()
 }
 
 /// Returns a polynomial of the checker.
 pub fn poly(of: &Polynomial) -> Poly {
     let terms = of.terms();
-    terms.map(|(powers, n)| (Monomial::from_powers(powers), Number::from(Rational::from(*n)))).collect()
+    terms.map(|(powers, n)| (Monomial::from_powers(powers), Rational::from(*n))).collect()
 }
 
-/// Multiplies two polynomials by the same positive number, so that their coefficients are integers without a
-/// common divisor.
-pub fn integral(a: &Poly, b: &Poly) -> (Poly, Poly) {
-    let numbers = a.terms().chain(b.terms()).map(|(_, number)| number);
-    let common = numbers.fold(Number::from(0), |common, number| common.common_divisor(number));
-    if common.cmp0().is_eq() {
-        return (a.clone(), b.clone());
-    }
-    let by = Poly::constant(common.recip_ref());
-    (a * &by, b * by)
+/// Multiplies polynomials by the same positive number, so that their coefficients are integers without a common
+/// divisor.
+pub fn integral<const N: usize>(all: [&Poly; N]) -> [Poly; N] {
+    let numbers = all.into_iter().flat_map(|of| of.terms().map(|(_, q)| q));
+    let common = numbers.fold(Rational::new(), |common, q| {
+        let numerator = common.numer().gcd_ref(q.numer()).complete();
+        (numerator, common.denom().lcm_ref(q.denom()).complete()).into()
+    });
+    let by = if common.is_zero() { common } else { common.recip() };
+    all.map(|of| of * Poly::constant(by.clone()))
 }

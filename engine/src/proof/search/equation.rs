@@ -1,7 +1,8 @@
 //! Equations in certificates: assumptions v = 0.
 
 use super::algebra::{Monomial, Poly, Ratio};
-use super::assumption::AssumptionUse;
+use super::assumption::{AssumedFact, Assumption, AssumptionUse};
+use super::context::solved;
 use super::dictionary::{integral, poly};
 use super::finder::{Finder, Result};
 use crate::proof::check::{Atom, Certificate, Polynomial};
@@ -36,21 +37,8 @@ impl Equation {
         monomials.find(|m| m.as_variable().is_some_and(|x| x < self.symbols)).unwrap_or(&self.pivot)
     }
 
-    /// Returns the coefficient of the pivot, and the rest of the equation.
-    fn solved(&self) -> Option<(Poly, Poly)> {
-        let pivot = self.pivot();
-        if let Some(x) = pivot.as_variable() {
-            let [rest, coefficient] = self.value.coefficients(x)?;
-            return Some((coefficient, rest));
-        }
-        let (_, number) = self.value.terms().find(|(monomial, _)| *monomial == pivot)?;
-        let leading = Poly::from_iter([(pivot.clone(), number.clone())]);
-        Some((Poly::constant(number.clone()), &self.value - leading))
-    }
-
     fn eliminate(&self, of: &Poly) -> Option<Eliminated> {
-        let (coefficient, rest) = self.solved()?;
-        let by = Ratio::from(-rest).checked_div(&coefficient.clone().into())?;
+        let (coefficient, by) = solved(self.pivot(), &self.value)?;
         let replaced = Ratio::from(of.clone()).replace(self.pivot(), &by);
         self.eliminated(of, replaced.den().clone(), replaced.num().clone()).or_else(|| {
             // A factor of the coefficient was cancelled in the value of the pivot.
@@ -68,21 +56,13 @@ impl Equation {
     }
 }
 
-/// Divides two forms by the product of powers that divides both.
-fn without_common_factor(left: Poly, right: Poly) -> (Poly, Poly) {
-    let factor = Poly::from(left.common_monomial().common(&right.common_monomial()));
-    match (left.checked_div(&factor), right.checked_div(&factor)) {
-        (Some(left), Some(right)) => (left, right),
-        _ => (left, right),
-    }
-}
-
 impl Finder<'_, '_> {
     /// Returns a certificate with l f = r, for forms l and r whose difference vanishes, maybe by equations.
     pub fn equated(&mut self, of: &Polynomial, form: Ratio) -> Result<Certificate> {
         let state = &self.proof.state;
-        let (left, right) = without_common_factor(form.den().clone(), form.num().clone());
-        let (mut left, mut right) = integral(&left, &right);
+        let factor = Poly::from(form.den().common_monomial().common(&form.num().common_monomial()));
+        let [left, right] = [form.den(), form.num()].map(|of| of.checked_div(&factor).unwrap_or(of.clone()));
+        let [mut left, mut right] = integral([&left, &right]);
         let found = self.finished(&left, &right)?;
         let [one, other] = state.sides(of, &found)?;
         let difference = one.plus_multiple(-1, &other, &state.facts.effort)?;
@@ -90,32 +70,24 @@ impl Finder<'_, '_> {
             return Ok(found);
         }
         let sum = self.vanishing(poly(&difference), &mut left, &mut right)?;
-        let (left, right) = integral(&left, &(right + sum));
+        let [left, right] = integral([&left, &(right + sum)]);
         self.finished(&left, &right)
     }
 
     /// Returns the equations among the assumptions.
     fn equations(&mut self) -> Result<Vec<Equation>> {
         let guide = self.guide;
-        let atoms = guide.problem.table.atoms().iter();
+        let atoms = self.proof.state.problem.table.atoms().iter();
         let symbols = atoms.filter(|atom| matches!(atom, Atom::Own(_))).count();
         let mut equations = Vec::new();
-        for (i, assumption) in guide.context.assumptions.iter().enumerate() {
-            let (pivot, fact) = match &assumption.usage {
-                AssumptionUse::Pivot(pivot, _, None) => {
-                    let assumed = guide.facts.get(i).and_then(Option::as_ref);
-                    (pivot, assumed.ok_or("an equation")?.fact)
-                }
-                AssumptionUse::Size { pivot, size, .. } => {
-                    // An absolute value may not have been met yet.
-                    let Some(fact) = guide.sizes.get(size) else { continue };
-                    (pivot, *fact)
-                }
-                _ => continue,
-            };
-            let value = poly(&self.proof.state.facts.get(fact)?.0);
-            let (pivot, sum) = (pivot.clone(), self.variable(fact));
-            equations.push(Equation { pivot, value, sum, symbols });
+        for Assumption { usage, fact, .. } in &guide.assumptions {
+            if let AssumptionUse::Equation(pivot) | AssumptionUse::Size { pivot, .. } = usage
+                && let Some(AssumedFact { fact, .. }) = fact
+            {
+                let value = poly(&self.proof.state.facts.get(*fact)?.0);
+                let (pivot, sum) = (pivot.clone(), self.variable(*fact));
+                equations.push(Equation { pivot, value, sum, symbols });
+            }
         }
         Ok(equations)
     }
@@ -130,15 +102,11 @@ impl Finder<'_, '_> {
             let Some(Eliminated { rest, power, multiple }) = equation.eliminate(&difference) else {
                 continue;
             };
-            let (mut scale, mut by) = (Poly::constant(1), Poly::constant(1));
-            if !power.is_one() {
-                let form = self.form_of_power(&power)?;
-                (scale, by) = (form.den().clone(), form.num().clone());
-            }
-            // power = by/scale.
-            *left = &*left * &by;
-            *right = &*right * &by;
-            difference = rest * &scale;
+            let form = self.form_of_power(&power)?;
+            let (by, scale) = (form.num(), form.den());
+            *left = &*left * by;
+            *right = &*right * by;
+            difference = rest * scale;
             found = found * by + &equation.sum * multiple * scale;
             for other in equations.iter_mut().filter(|other| other.value.contains(equation.pivot())) {
                 let Some(Eliminated { rest, power, multiple }) = equation.eliminate(&other.value) else {
@@ -153,11 +121,9 @@ impl Finder<'_, '_> {
 
     /// Returns a power of a coefficient as a quotient of forms.
     fn form_of_power(&mut self, power: &Poly) -> Result<Ratio> {
-        let (rest, product) = self.without_largest_errors(power)?;
-        let guide = self.guide;
-        let reduced = guide.context.reduce(&rest.into());
-        let signed = guide.context.sign_by_retained(reduced).ok_or("the sign of a power")?;
+        let signed =
+            self.guide.sign(self.guide.reduce(&power.clone().into())).ok_or("the sign of a power")?;
         let form = self.form(&signed, &[])?;
-        Ok(self.without_slacks(form)? * Ratio::from(product))
+        self.without_slacks(form)
     }
 }

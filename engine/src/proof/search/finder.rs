@@ -2,9 +2,9 @@
 
 use super::ProofError;
 use super::algebra::{Monomial, Poly, Ratio};
-use super::assumption::{AssumptionUse, SignedRatio};
+use super::assumption::{AssumedFact, AssumptionUse, SignedRatio};
+use super::context::Context;
 use super::dictionary::{poly, polynomial};
-use super::knowledge::{AssumedFact, Knowledge};
 use super::leaf::Steps;
 use super::symbol::Symbol;
 use crate::proof::check::{Certificate, MAX_VARIABLES, Polynomial, Step};
@@ -17,7 +17,7 @@ pub type Result<T> = std::result::Result<T, ProofError>;
 
 /// A search for one certificate.
 pub struct Finder<'f, 'p> {
-    pub guide: &'f Knowledge<'p>,
+    pub guide: &'f Context,
     pub proof: &'f mut Steps<'p>,
     /// The facts in it.
     facts: Vec<usize>,
@@ -26,13 +26,13 @@ pub struct Finder<'f, 'p> {
 }
 
 impl<'f, 'p> Finder<'f, 'p> {
-    fn new(guide: &'f Knowledge<'p>, proof: &'f mut Steps<'p>, depth: u32) -> Self {
+    fn new(guide: &'f Context, proof: &'f mut Steps<'p>, depth: u32) -> Self {
         Finder { guide, proof, facts: Vec::new(), depth }
     }
 
     /// Shows a polynomial whose quotient by these facts has this sign.
     pub fn show(
-        guide: &'f Knowledge<'p>,
+        guide: &'f Context,
         of: &Polynomial,
         den: &[usize],
         signed: &SignedRatio,
@@ -103,22 +103,16 @@ impl<'f, 'p> Finder<'f, 'p> {
     /// Replaces slack variables by facts.
     pub fn without_slacks(&mut self, mut form: Ratio) -> Result<Ratio> {
         let guide = self.guide;
-        for (i, assumption) in guide.context.assumptions.iter().enumerate().rev() {
-            let (AssumptionUse::Pivot(_, _, Some(x)) | AssumptionUse::Variable(x)) = &assumption.usage else {
+        for assumption in guide.assumptions.iter().rev() {
+            let (AssumptionUse::Variable(x), Some(assumed)) = (&assumption.usage, &assumption.fact) else {
                 continue;
             };
-            let pivot = Monomial::of(*x);
-            let assumed = guide.facts.get(i).and_then(Option::as_ref);
-            let Some(assumed) = assumed.filter(|_| form.contains(&pivot)) else { continue };
             let is_variable = self.proof.state.facts.get(assumed.fact)?.0.as_variable().is_some();
-            if is_variable && matches!(guide.context.symbol(*x), Some(Symbol::Own(_))) {
-                continue;
+            let is_original = is_variable && matches!(guide.symbol(*x), Some(Symbol::Own(_)));
+            let pivot = Monomial::of(*x);
+            if !is_original && form.contains(&pivot) {
+                form = form.replace(&pivot, &self.assumed(assumed)?);
             }
-            let mut by = self.assumed(assumed)?;
-            if let Some(divisor) = &assumption.divisor {
-                by = by.checked_div(divisor).ok_or("a zero divisor")?;
-            }
-            form = form.replace(&pivot, &by);
         }
         Ok(form)
     }

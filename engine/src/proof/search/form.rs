@@ -19,7 +19,7 @@ impl Finder<'_, '_> {
         let (left_of_den, right_of_den) = match self.by_largest_errors(&den) {
             Some(forms) => forms,
             None => {
-                let den = choice::sign(&den, &self.guide.context.signs);
+                let den = choice::sign(&den, &self.guide.signs);
                 self.forms(&den.ok_or("the sign of a denominator")?)?
             }
         };
@@ -29,7 +29,7 @@ impl Finder<'_, '_> {
             form = form * Ratio::from(self.fact(i));
         }
         let Some(multiple) = &signed.subtracted else { return Ok(form) };
-        let retained = self.guide.retained(&multiple.of).ok_or("a retained quantity")?;
+        let retained = self.guide.assumptions[multiple.of].fact.as_ref().ok_or("a retained quantity")?;
         Ok(self.form(&multiple.factor, facts)? * self.assumed(retained)? + form)
     }
 
@@ -54,7 +54,7 @@ impl Finder<'_, '_> {
         if product.is_one() || !original.den().is_one() {
             return None;
         }
-        let rest = self.guide.context.reduce(&rest.into());
+        let rest = self.guide.reduce(&rest.into());
         let form = self.form(&self.guide.sign(rest)?, &[]).ok()?;
         Some((form.den().clone(), form.num() * product))
     }
@@ -75,22 +75,15 @@ impl Finder<'_, '_> {
     fn forms(&mut self, of: &Certificate) -> Result<Forms> {
         match of.rule() {
             Rule::Terms => Ok((Poly::constant(1), of.of().clone())),
-            Rule::Product(factor, rest) => {
-                let (left, right) = self.forms(factor)?;
-                let (left_of_rest, right_of_rest) = self.forms(rest)?;
-                Ok((left * left_of_rest, right * right_of_rest))
-            }
             Rule::Square { leading, root, rest } => self.square(leading, root, rest),
             Rule::Endpoints { x, at } => self.ends(*x, at),
         }
     }
 
     /// Returns 4 a f = r² + d.
-    fn square(&mut self, leading: &Certificate, root: &Poly, rest: &Certificate) -> Result<Forms> {
-        let (left_of_leading, leading) = self.forms(leading)?;
-        let (left_of_rest, rest) = self.forms(rest)?;
+    fn square(&mut self, leading: &Poly, root: &Poly, rest: &Poly) -> Result<Forms> {
         let original = self.guide.original(&root.clone().into());
-        let (value, _) = integral(original.num(), original.num());
+        let [value] = integral([original.num()]);
         let scale = original.checked_div(&value.clone().into()).ok_or("a zero root")?;
         if [scale.num(), scale.den()].into_iter().any(|part| part.terms().len() != 1) {
             return Err("the scale of a root".into());
@@ -98,9 +91,7 @@ impl Finder<'_, '_> {
         let of = polynomial(&value).ok_or("a root")?;
         let fact = self.proof.add(Step::Square(of))?;
         let square = &scale * &scale * Ratio::from(self.variable(fact));
-        let left = Poly::constant(4) * leading * &left_of_rest * square.den();
-        let right = &left_of_leading * left_of_rest * square.num() + left_of_leading * rest * square.den();
-        Ok((left, right))
+        Ok((Poly::constant(4) * leading * square.den(), square.num() + rest * square.den()))
     }
 
     /// Returns 2ⁿ f = Σ bᵢ (1 + x)ⁱ (1 − x)ⁿ⁻ⁱ.

@@ -1,11 +1,11 @@
 //! The search for the steps of a leaf: whatever the translation of a formula requires is found, and listed.
 
-use super::ProofError;
 use super::algebra::{Poly, Ratio};
+use super::assumption::AssumedFact;
+use super::context::Context;
 use super::dictionary::{poly, polynomial};
 use super::finder::{Finder, Result};
-use super::knowledge::{AssumedFact, Knowledge};
-use super::{Decision, case};
+use super::{Case, ProofError};
 use crate::formula::Relation;
 use crate::formula::claim::PRECISION;
 use crate::formula::statement::Proposition;
@@ -24,15 +24,13 @@ pub struct Steps<'a> {
 /// A search for the steps of a leaf.
 pub struct Search<'a> {
     /// The knowledge so far.
-    pub known: Knowledge<'a>,
+    pub known: Context,
     /// The steps so far.
     pub proof: Steps<'a>,
-    /// The absolute values that were replaced, each with the number of hypotheses before it.
-    pub sizes: Vec<Decision>,
+    /// The quantities whose absolute values were replaced, each after the number of hypotheses before it.
+    pub sizes: Vec<(usize, Ratio)>,
     /// The number of hypotheses so far.
     pub position: usize,
-    /// The last quantity whose sign was required.
-    pub required: Option<Quotient>,
     /// The exponentials that were met, as variables.
     pub exponentials: Vec<usize>,
     /// Their laws that may still be listed.
@@ -48,8 +46,8 @@ enum Use {
     Part,
     /// It decides between the branches of a minimum or positive part.
     Branch,
-    /// It is the goal, or the premise of an order.
-    Goal,
+    /// It is to be proved that it has this sign.
+    Goal(Sign),
 }
 
 impl Steps<'_> {
@@ -62,41 +60,24 @@ impl Steps<'_> {
 }
 
 impl<'a> Search<'a> {
-    /// Returns a search under the assumptions of decisions.
-    pub fn new(problem: &'a Problem<'a>, decisions: &[Decision]) -> Result<Self> {
-        let cases: Vec<_> = decisions.iter().filter_map(case).collect();
+    /// Returns a search under the assumptions of cases.
+    pub fn new(problem: &'a Problem<'a>, cases: &[Case]) -> Result<Self> {
+        let cases: Vec<_> = cases.iter().map(|case| (case.on.clone(), case.sign)).collect();
         let proof = Steps { state: State::new(problem, &cases)?, steps: Vec::new() };
-        let (sizes, position, required) = Default::default();
-        let (exponentials, laws, met) = Default::default();
-        let known = Knowledge::new(problem);
-        Ok(Search { known, proof, sizes, position, required, exponentials, laws, met })
+        let (sizes, position, exponentials, laws, met) = Default::default();
+        Ok(Search { known: Context::new(problem), proof, sizes, position, exponentials, laws, met })
     }
 
     pub fn problem(&self) -> &'a Problem<'a> {
-        self.known.problem
+        self.proof.state.problem
     }
 
-    /// Uses the assumptions of decisions before a hypothesis.
-    pub fn follow(&mut self, position: usize, decisions: &[Decision]) {
+    /// Uses the assumptions of cases before a hypothesis.
+    pub fn follow(&mut self, position: usize, cases: &[Case]) {
         self.position = position;
-        let mut cases = 0;
-        for decision in decisions {
-            match decision {
-                Decision::Case { at, deciding, scale, sign, .. } => {
-                    cases += 1;
-                    if *at == position {
-                        let is_negated = *sign == Sign::NonPositive;
-                        let scale = if is_negated { -scale } else { scale.clone() };
-                        // The first fact is 2 > 0.
-                        let fact = AssumedFact { fact: cases, den: Vec::new(), scale };
-                        self.known.assume_case(deciding, *sign, fact);
-                    }
-                }
-                Decision::Size { at, of, twice } if *at == position => {
-                    self.known.assume_size(*of, twice);
-                }
-                Decision::Size { .. } => {}
-            }
+        // The first fact is 2 > 0.
+        for (fact, case) in (1..).zip(cases).filter(|(_, case)| case.at == position) {
+            self.known.assume(None, &poly(&case.on).into(), case.sign, AssumedFact::new(fact, Vec::new()));
         }
     }
 
@@ -115,41 +96,84 @@ impl<'a> Search<'a> {
         }
         let fact = self.proof.add(Step::Assume(i))?;
         let value = self.known.ratio(&of, &self.proof.state);
-        let scale = Poly::constant(1).into();
-        self.known.assume(hypothesis, value, AssumedFact { fact, den: of.den, scale });
+        let fact = AssumedFact::new(fact, of.den);
+        self.known.assume(Some(hypothesis), &value, hypothesis.relation.into(), fact);
         Ok(())
     }
 
-    /// Shows that fl(a) ≥ fl(b), from a ≥ b, for the numbers of these two formulas.
-    pub fn order(&mut self, a: usize, b: usize) -> Result<()> {
-        let (x, y) = (self.inside(a)?, self.inside(b)?);
-        self.show_sum(&[(1, x), (-1, y)], Use::Goal)?;
-        [a, b].into_iter().try_for_each(|of| self.value(of).map(|_| ()))?;
-        let fact = self.proof.add(Step::Law(Law::Order([a, b])))?;
-        let (of, sign) = self.proof.state.facts.get(fact)?;
-        self.known.retain(fact, of, *sign, Poly::constant(1));
-        Ok(())
-    }
-
-    /// Returns the formula that a rounded formula rounds.
-    fn inside(&self, rounded: usize) -> Result<usize> {
-        match self.problem().table.op(rounded)? {
-            Op::Rounded(of) => Ok(of),
-            _ => Err(Refusal::Unknown.into()),
+    /// Shows the orders of the rounded formulas inside two formulas, operation by operation.
+    fn orders(&mut self, a: usize, b: usize) -> Result<()> {
+        use Op::*;
+        let table = &self.problem().table;
+        match (table.op(a)?, table.op(b)?) {
+            _ if a == b => Ok(()),
+            (Rounded(c), Rounded(d)) => {
+                self.orders(c, d)?;
+                // fl(a) ≥ fl(b) follows from a ≥ b.
+                let difference = self.difference(c, d)?;
+                self.show(&difference, Use::Goal(Sign::NonNegative))?;
+                [a, b].into_iter().try_for_each(|of| self.value(of).map(|_| ()))?;
+                let fact = self.proof.add(Step::Law(Law::Order([a, b])))?;
+                self.known.retain(fact, self.proof.state.facts.get(fact)?, Poly::constant(1));
+                Ok(())
+            }
+            (PositivePart(a), PositivePart(b)) => self.orders(a, b),
+            (Neg(a), Neg(b)) => self.orders(b, a),
+            (Add(a, c), Add(b, d)) | (Min(a, c), Min(b, d)) => {
+                self.orders(a, b)?;
+                self.orders(c, d)
+            }
+            (Sub(a, c), Sub(b, d)) => {
+                self.orders(a, b)?;
+                self.orders(d, c)
+            }
+            (Mul(f, a), Mul(g, b)) | (Mul(a, f), Mul(b, g)) | (Div(a, f), Div(b, g)) if f == g => {
+                self.orders(a, b)
+            }
+            _ => Ok(()),
         }
     }
 
     /// Shows the goal.
     pub fn goal(&mut self) -> Result<()> {
-        let problem = self.problem();
-        problem.goal.iter().try_for_each(|of| self.value(*of).map(|_| ()))?;
-        if problem.variable().is_some() {
-            let of = self.value(problem.goal[0])?;
-            self.limit(&of)?;
+        let Problem { proposition, goal, table, .. } = self.problem();
+        if let Proposition::Sign(Relation::NonNegative, _) = proposition
+            && let Op::Sub(a, b) = table.op(goal[0])?
+            && let (Op::Rounded(_), Op::Rounded(_)) = (table.op(a)?, table.op(b)?)
+        {
+            self.orders(a, b)?;
         }
-        let goals = self.proof.state.goals()?;
-        goals.iter().try_for_each(|(of, _)| self.show(of, Use::Goal))?;
-        if self.proof.state.proves_goal()? { Ok(()) } else { Err(Refusal::Goal.into()) }
+        goal.iter().try_for_each(|of| self.value(*of).map(|_| ()))?;
+        if let Proposition::Limit(..) = proposition {
+            let of = self.value(goal[0])?;
+            return self.limit(&of).map_err(|reason| self.no_limit(reason, &of));
+        }
+        for (of, sign) in self.proof.state.goals()? {
+            self.show(&of, Use::Goal(sign))?;
+            if !self.proof.state.facts.have(&of, sign) {
+                let value = self.known.reduced_quotient(&of, &self.proof.state);
+                let found = self.known.sign(value.clone()).ok_or(Refusal::Goal)?;
+                return Err(ProofError::WrongSign(self.known.quantity(value), found.sign()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the reason for which the limit of a quantity is not shown.
+    fn no_limit(&self, reason: ProofError, of: &Quotient) -> ProofError {
+        match reason {
+            ProofError::UnknownSign(_) | ProofError::Refused(Refusal::Limit) => {
+                let value = self.known.reduced_quotient(of, &self.proof.state);
+                ProofError::UnknownLimit(self.known.quantity(value))
+            }
+            reason => reason,
+        }
+    }
+
+    /// Returns a − b.
+    fn difference(&mut self, a: usize, b: usize) -> Result<Quotient> {
+        let (a, b) = (self.value(a)?, self.value(b)?);
+        Ok(self.proof.state.facts.sum(&a, -1, &b)?)
     }
 
     /// Returns the value of a formula, after the steps that its translation requires.
@@ -159,25 +183,21 @@ impl<'a> Search<'a> {
             op.operands().try_for_each(|operand| self.value(*operand).map(|_| ()))?;
             match op {
                 Op::Div(_, by) => self.divisor(by)?,
-                Op::PositivePart(of) => self.show_sum(&[(1, of)], Use::Branch)?,
+                Op::PositivePart(of) => {
+                    let deciding = self.value(of)?;
+                    self.show(&deciding, Use::Branch)?;
+                }
                 Op::Min(a, b) if self.problem().table.op(a) == Ok(Op::Neg(b)) => self.absolute_value(b)?,
-                Op::Min(a, b) => self.show_sum(&[(1, b), (-1, a)], Use::Branch)?,
+                Op::Min(a, b) => {
+                    let deciding = self.difference(b, a)?;
+                    self.show(&deciding, Use::Branch)?;
+                }
                 Op::Exp(of) => self.exponential(of)?,
                 Op::Rounded(_) => self.precision()?,
                 _ => {}
             }
         }
         Ok(self.proof.state.value(formula)?)
-    }
-
-    /// Shows the sign of a sum of multiples of formulas.
-    fn show_sum(&mut self, sum: &[(i128, usize)], usage: Use) -> Result<()> {
-        let mut value = Quotient::from(Polynomial::zero());
-        for (n, of) in sum {
-            let of = self.value(*of)?;
-            value = self.proof.state.facts.sum(&value, *n, &of)?;
-        }
-        self.show(&value, usage)
     }
 
     /// Shows that a polynomial is not 0, and returns the number of the fact.
@@ -191,32 +211,28 @@ impl<'a> Search<'a> {
         self.show(&of.clone().into(), Use::Part)
     }
 
-    /// Shows the sign of a quantity by a certificate for its numerator, unless a fact states it.
+    /// Shows the sign of a quantity by a certificate for its numerator, unless a fact states it. A weak sign that is known
+    /// is replaced by a definite one if that is found.
     fn show(&mut self, of: &Quotient, usage: Use) -> Result<()> {
-        let fact = known_fact(&of.num, &self.proof.state);
-        if of.num.is_zero() || fact.is_some_and(is_definite) {
+        let facts = self.proof.state.facts.iter().filter(|(known, _)| *known == of.num);
+        let known: Vec<_> = facts.map(|(_, sign)| *sign).collect();
+        if of.num.is_zero() || known.iter().any(|sign| is_definite(*sign)) {
             return Ok(());
         }
-        self.required = Some(of.clone());
         // The numerator is shorter than the quotient, but its sign may be found by the other's alone.
-        let direct = self.known.reduced(&of.num);
-        let signed = self.known.context.sign(direct.clone());
-        let signed = signed.filter(|signed| match fact {
-            Some(_) => is_definite(signed.sign()),
-            None => self.suffices(usage, signed.sign()),
+        let signed = self.known.direct_sign(self.known.reduced(&of.num)).filter(|signed| {
+            let may_be_weak = matches!(usage, Use::Branch | Use::Goal(Sign::NonNegative));
+            is_definite(signed.sign()) || known.is_empty() && may_be_weak
         });
         if let Some(signed) = signed {
             return Finder::show(&self.known, &of.num, &[], &signed, &mut self.proof);
         }
-        if fact.is_some() {
+        if !known.is_empty() {
             return Ok(());
         }
-        let value =
-            if of.den.is_empty() { direct } else { self.known.reduced_quotient(of, &self.proof.state) };
+        let value = self.known.reduced_quotient(of, &self.proof.state);
         let signed = self.known.sign(value.clone());
-        let requires_zero =
-            matches!(self.problem().proposition, Proposition::Equal(..) | Proposition::Derivative(..));
-        let is_unequal = requires_zero && usage == Use::Goal && !value.is_zero();
+        let is_unequal = usage == Use::Goal(Sign::Zero) && !value.is_zero();
         if (is_unequal || signed.is_none()) && self.list_law()? {
             return self.show(of, usage);
         }
@@ -228,39 +244,29 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns `true` if no other sign would prove more.
-    fn suffices(&self, usage: Use, sign: Sign) -> bool {
-        let is_weak = match self.problem().proposition {
-            Proposition::Within(..) | Proposition::Sign(Relation::NonNegative, _) => usage != Use::Part,
-            _ => usage == Use::Branch,
-        };
-        is_definite(sign) || is_weak
-    }
-
     /// Lists the next law of exponentials that applies. Returns `false` if all are listed already.
     fn list_law(&mut self) -> Result<bool> {
         while let Some(law) = self.laws.pop_front() {
-            let (x, is_bound) = match law {
-                Law::AboveTangent(x) | Law::BelowPole(x) => (x, true),
-                _ => (0, false),
+            let bounded = match law {
+                Law::AboveTangent(x) | Law::BelowPole(x) => Some(x),
+                _ => None,
             };
-            if is_bound {
+            if let Some(x) = bounded {
                 let exponent = self.proof.state.exponent(x)?;
                 let value = self.known.reduced_quotient(&exponent, &self.proof.state);
                 if self.known.sign(value).is_some() {
                     self.show(&exponent, Use::Part)?;
                 }
             }
-            let Ok(fact) = self.proof.add(Step::Law(law)) else { continue };
-            let (of, sign) = self.proof.state.facts.get(fact)?;
-            match is_bound {
-                false => self.known.equate(fact, of),
-                true => {
+            let Ok(number) = self.proof.add(Step::Law(law)) else { continue };
+            let fact = self.proof.state.facts.get(number)?;
+            match bounded.and_then(|x| self.exponentials.iter().position(|y| *y == x)) {
+                None => self.known.equate(number, &fact.0),
+                Some(i) => {
                     // Its product with the reciprocal bounds that one.
-                    let i = self.exponentials.iter().position(|y| *y == x).unwrap_or_default();
                     let reciprocal = Poly::variable(self.exponentials[i ^ 1]);
-                    self.known.retain(fact, of, *sign, Poly::constant(1));
-                    self.known.retain(fact, of, *sign, reciprocal);
+                    self.known.retain(number, fact, Poly::constant(1));
+                    self.known.retain(number, fact, reciprocal);
                 }
             }
             return Ok(true);
@@ -268,18 +274,37 @@ impl<'a> Search<'a> {
         Ok(false)
     }
 
-    /// Shows that the factors of a divisor are not 0: symbols, known facts, errors 2ᵖ + 1 + e, and the rest.
+    /// Shows that the value of a formula is not 0.
     fn divisor(&mut self, formula: usize) -> Result<()> {
         let of = self.proof.state.value(formula)?;
         if self.proof.state.inverse(&of).is_ok() {
             return Ok(());
         }
-        self.check_divisor(formula, &of)?;
-        let state = &self.proof.state;
-        let mut rest = poly(&of.num);
+        let tree = self.problem().table.formula(formula)?.clone();
+        self.factors(&of.num).map_err(|reason| self.zero_divisor(reason, &of, tree))
+    }
+
+    /// Returns the reason for which a divisor may be 0.
+    fn zero_divisor(&self, reason: ProofError, of: &Quotient, formula: Tree) -> ProofError {
+        match reason {
+            ProofError::UnknownSign(_) | ProofError::Refused(Refusal::NotStrict) => {
+                let value = self.known.reduced_quotient(of, &self.proof.state);
+                ProofError::PossibleZeroDivisor(formula, self.known.quantity(value))
+            }
+            reason => reason,
+        }
+    }
+
+    /// Shows that the factors of a polynomial are not 0: symbols, known facts, errors 2ᵖ + 1 + e, and the rest.
+    fn factors(&mut self, of: &Polynomial) -> Result<()> {
+        if of.is_zero() {
+            return Err(Refusal::NotStrict.into());
+        }
+        let mut rest = poly(of);
         let mut candidates: Vec<Poly> =
             rest.common_monomial().powers().map(|(x, _)| Poly::variable(x)).collect();
-        let strict = state.facts.iter().filter(|(of, sign)| sign.is_strict() && of.terms().len() > 1);
+        let facts = self.proof.state.facts.iter();
+        let strict = facts.filter(|(of, sign)| sign.is_strict() && of.terms().len() > 1);
         candidates.extend(strict.map(|(of, _)| poly(of)));
         candidates.extend(self.known.largest_errors(&rest));
         let mut factors = Vec::new();
@@ -294,8 +319,7 @@ impl<'a> Search<'a> {
         }
         let mut numbers = Vec::with_capacity(factors.len());
         for factor in &factors {
-            let factor = polynomial(factor).ok_or("a divisor")?;
-            numbers.push(self.strict(&factor)?);
+            numbers.push(self.strict(&polynomial(factor).ok_or("a divisor")?)?);
         }
         if numbers.len() != 1 {
             self.proof.add(Step::Divisor(numbers))?;
@@ -303,33 +327,11 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// Checks that the sign of a divisor is found, and that it is strict.
-    fn check_divisor(&mut self, formula: usize, value: &Quotient) -> Result<()> {
-        if value.num.has_only(|_| false) && !value.num.is_zero() {
-            return Ok(());
-        }
-        loop {
-            let reduced = self.known.reduced_quotient(value, &self.proof.state);
-            let signed = self.known.sign(reduced.clone());
-            if signed.is_some_and(|signed| signed.sign().is_strict()) {
-                return Ok(());
-            }
-            if value.num.is_zero() || !self.list_law()? {
-                let divisor = self.problem().table.formula(formula)?.clone();
-                return Err(ProofError::PossibleZeroDivisor(divisor, self.known.quantity(reduced)));
-            }
-        }
-    }
-
     /// Shows that 2ᵖ + 1 is not 0.
     fn precision(&mut self) -> Result<()> {
-        let largest = self.known.context.inverse_gamma();
-        if !self.known.sign(largest.clone()).is_some_and(|signed| signed.sign().is_strict()) {
-            let divisor = Tree::symbol(PRECISION) + Tree::from(1);
-            return Err(ProofError::PossibleZeroDivisor(divisor, self.known.quantity(largest)));
-        }
-        let largest = polynomial(&self.known.context.largest);
-        self.strict(&largest.ok_or("a precision")?)?;
+        let largest = polynomial(&self.known.largest).ok_or("a precision")?;
+        let formula = Tree::symbol(PRECISION) + Tree::from(1);
+        self.strict(&largest).map_err(|reason| self.zero_divisor(reason, &largest.into(), formula))?;
         Ok(())
     }
 
@@ -358,44 +360,29 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// Shows what the absolute value of a formula is: another one, an atom, or the formula with a sign.
+    /// Shows what the absolute value of a formula is: an atom, or the formula with a sign.
     fn absolute_value(&mut self, of: usize) -> Result<()> {
-        let size = self.problem().table.variable(Atom::Size(of))?;
+        let table = &self.problem().table;
+        let (size, factor) = (table.variable(Atom::Size(of))?, table.variable(Atom::Factor(of))?);
         if self.met.contains(&size) {
             return Ok(());
         }
         let quotient = self.proof.state.value(of)?;
-        let value = self.known.ratio(&quotient, &self.proof.state);
-        let twice: Ratio = self.known.context.reduce(&(&value + &value));
-        let replaced = self.known.context.size(&value);
-        let decision = Decision::Size { at: self.position, of, twice: twice.clone() };
-        let is_free = replaced.is_none() && self.known.sign(twice.clone()).is_none();
-        let is_new = is_free && self.known.assume_size(of, &twice);
-        self.sizes.extend(is_new.then_some(decision));
-        self.met.push(size);
-        if is_new || replaced == Some(size) {
-            let fact = self.proof.add(Step::Law(Law::AbsoluteValue(of)))?;
-            self.known.sizes.insert(size, fact);
+        let value = self.known.reduced_quotient(&quotient, &self.proof.state);
+        let next = self.proof.state.facts.iter().len();
+        let is_free = !self.known.has_size(&value) && self.known.sign(value.clone()).is_none();
+        let law = if is_free && self.known.assume_size([size, factor], &value, next) {
+            self.sizes.push((self.position, value));
+            Law::AbsoluteValue(of)
         } else {
             self.show(&quotient, Use::Branch)?;
-            let fact = self.proof.add(Step::Law(Law::Signed(of)))?;
-            self.known.equate(fact, &self.proof.state.facts.get(fact)?.0);
-        }
+            Law::Signed(of)
+        };
+        let fact = self.proof.add(Step::Law(law))?;
+        self.met.push(size);
+        self.known.equate(fact, &self.proof.state.facts.get(fact)?.0);
         Ok(())
     }
-}
-
-impl Knowledge<'_> {
-    /// Returns 2ᵖ + 1 + e for each error in a polynomial.
-    pub fn largest_errors(&self, of: &Poly) -> Vec<Poly> {
-        let largest = &self.context.largest;
-        self.context.errors(of).into_iter().map(|x| largest + Poly::variable(x)).collect()
-    }
-}
-
-/// Returns the sign that the first fact about a polynomial states.
-fn known_fact(of: &Polynomial, state: &State) -> Option<Sign> {
-    state.facts.iter().find(|(known, _)| known == of).map(|(_, sign)| *sign)
 }
 
 /// Returns `true` if no other sign implies this one.

@@ -2,7 +2,7 @@
 
 use super::finder::Result;
 use super::leaf::Search;
-use crate::proof::check::Quotient;
+use crate::proof::check::{Quotient, Refusal};
 
 impl Search<'_> {
     /// Shows the signs of the leading coefficients of a quantity in the variable of the limit.
@@ -21,6 +21,10 @@ impl Search<'_> {
         }
         let num = self.proof.state.without_vanishing_terms(&of.num)?;
         let (_, coefficients) = self.proof.state.leading(&Quotient { num, den: of.den.clone() })?;
-        coefficients[1..].iter().try_for_each(|of| self.show_part(of))
+        coefficients[1..].iter().try_for_each(|of| self.show_part(of))?;
+        for (difference, _) in self.proof.state.goals()? {
+            self.show_part(&difference.num)?;
+        }
+        if self.proof.state.proves_goal()? { Ok(()) } else { Err(Refusal::Limit.into()) }
     }
 }

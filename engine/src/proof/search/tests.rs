@@ -1,6 +1,7 @@
 //! Tests of what is proved and what must not be proved.
 
 use super::*;
+use crate::formula::Relation;
 use crate::formula::claim::{
     PRECISION, derivative, equal, geometric_limit, induction, perturbed_recursion, positive, within,
 };
