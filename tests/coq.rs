@@ -3,7 +3,6 @@
 use crate::coqc::{DEFINITIONS, accepts, code, compile, named, of_claims, scratch, words};
 use spring_mass_contact::claims::{self, registry};
 use spring_mass_contact::formula::Relation;
-use spring_mass_contact::formula::claim::SCALES;
 use spring_mass_contact::formula::statement::{Proposition, minimum_precision};
 use spring_mass_contact::number::Tree;
 use spring_mass_contact::number::tree::Op;
@@ -80,9 +79,9 @@ fn every_divisor_is_proved_to_be_nonzero() {
 
 /// Returns what a theorem or lemma says: the text from its name to its proof, in one line.
 fn said(files: &[File], keyword: &str, name: &str) -> Option<String> {
-    let start = format!("\n{keyword} {name} :");
-    let (_, text) = of_claims(files).find_map(|file| file.text.split_once(&start))?;
-    let (said, _) = text.split_once("\nProof.")?;
+    let start = format!("\n{keyword} {name}");
+    let mut after = of_claims(files).flat_map(|file| file.text.split(&start).skip(1));
+    let (said, _) = after.find(|rest| rest.starts_with([' ', '\n']))?.split_once("\nProof.")?;
     Some(said.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
@@ -98,14 +97,8 @@ fn every_theorem_states_its_claim() {
         count += 1;
         let rounding = statement.contains_rounding();
         let premises = statement.hypotheses().iter().filter(|h| !rounding || **h != minimum_precision());
-        let scales = SCALES.iter().filter(|scale| registry().symbols_of(statement.trees()).contains(scale));
-        let of_rounding = if rounding { 2 + scales.count() } else { 0 };
-        assert_eq!(
-            said.matches("->").count() - usize::from(rounding),
-            premises.count() + of_rounding,
-            "{name}"
-        );
-        let conclusion = said.rsplit("->").next().unwrap();
+        assert_eq!(said.matches("(H").count(), premises.count(), "{name}");
+        let conclusion = said.rsplit(" : ").next().unwrap();
         let relation = match goal.proposition {
             Proposition::Equal(..) => " = ",
             Proposition::Sign(Relation::Positive, _) => "0 < ",

@@ -59,6 +59,11 @@ pub fn claims() -> Vec<Statement> {
             Rate::Equal((-&a).exp() * &f / (&g + &f) * Tree::int(-1)),
         )
         .assuming([&lens_f, &lens_g]),
+        vanishing("decay-of-product", &x * (-&a * &x).exp(), &[&stiff_a]),
+        vanishing("decay-of-square", (-&a * &x * &x).exp(), &[&stiff_a]),
+        vanishing("decay-twice", (-&a * &x).exp() * (-&b * &x).exp() / &x, &[&stiff_a, &stiff_b, &above(&x)]),
+        vanishing("decay-by-quotient", (-&x * &x / (&a + &x)).exp(), &[&stiff_a, &above(&x)]),
+        vanishing("later", &a / (&b * &x - one()), &[&stiff_a, &stiff_b, &above(&(&b * &x - one()))]),
         within("negative-divisor", once(&(&a / (&b - &c))), &a / (&c - &b) / &n)
             .assuming([&stiff_a, &above_c]),
         within("opposite-divisor", once(&(&a / -&b)), &a / &b / &n).assuming([&stiff_a, &stiff_b]),
@@ -172,6 +177,11 @@ pub fn claims() -> Vec<Statement> {
         within("both-signs", once(&(&a / (&f - &g) + &a / (&g - &f) + &a)), &a / &n)
             .assuming([&stiff_a, &shorter]),
     ]
+}
+
+/// States that a formula of x vanishes.
+fn vanishing(name: &'static str, of: Tree, hypotheses: &[&Hypothesis]) -> Statement {
+    limit(name, &of, &Tree::symbol("x"), 0, Rate::Equal(of.clone())).assuming(hypotheses.iter().copied())
 }
 
 /// Returns a claim about the first of these symbols for each rule, with a hypothesis on the others, in a section named

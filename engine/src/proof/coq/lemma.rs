@@ -1,7 +1,6 @@
 //! Lemmas: statements under hypotheses.
 
 use super::print::{Printer, ascii};
-use super::script::Script;
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::statement::minimum_precision;
 use crate::formula::{Hypothesis, Proposition};
@@ -11,33 +10,25 @@ use crate::number::tree::Op;
 /// Result, with the reason why a claim cannot be exported.
 pub(super) type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
-/// Variables and hypotheses of a lemma; if it contains roundings, it is for every precision.
+/// Variables and hypotheses of a lemma. What rounding needs belongs to the section of its file.
 #[derive(Clone)]
 pub(super) struct Lemma<'a> {
     pub(super) name: String,
     pub(super) printer: Printer<'a>,
     pub(super) variables: Vec<&'static str>,
-    pub(super) contains_rounding: bool,
-    hypotheses: Vec<&'a Hypothesis>,
-}
-
-/// Returns the name of the exponent of a power of two: that of 2ᵃ is power_a.
-fn exponent(scale: &str) -> String {
-    ascii(scale).replace("two", "power")
-}
-
-/// Returns H1, H2, …
-pub(super) fn numbered_names(letter: &str, n: usize) -> Vec<String> {
-    (1..=n).map(|i| format!("{letter}{i}")).collect()
+    pub(super) hypotheses: Vec<&'a Hypothesis>,
+    contains_rounding: bool,
 }
 
 /// Joins words, each after a blank.
-pub(super) fn spaced<W: AsRef<str>>(words: impl IntoIterator<Item = W>) -> String {
-    words.into_iter().map(|word| format!(" {}", word.as_ref())).collect()
+pub(super) fn spaced(words: impl IntoIterator<Item = String>) -> String {
+    words.into_iter().map(|word| format!(" {word}")).collect()
 }
 
-pub(super) fn names(variables: &[&'static str]) -> String {
-    spaced(variables.iter().map(|var| ascii(var)))
+/// Returns the parameters of a lemma or function.
+pub(super) fn binders(variables: impl IntoIterator<Item = &'static str>) -> String {
+    let names = spaced(variables.into_iter().map(ascii));
+    if names.is_empty() { names } else { format!(" ({} : R)", names.trim_start()) }
 }
 
 pub(super) fn format_hypothesis(hypothesis: &Hypothesis, printer: Printer) -> String {
@@ -51,16 +42,26 @@ pub(super) fn format_hypothesis(hypothesis: &Hypothesis, printer: Printer) -> St
 
 pub(super) fn format_proposition(proposition: &Proposition, printer: Printer) -> String {
     use Proposition::*;
-    let of = |tree: &Tree| printer.expr(tree);
-    let function = |var: &str, tree: &Tree| format!("(fun {} => {})", ascii(var), of(tree));
     match proposition {
-        Equal(a, b) => format!("{} = {}", of(a), of(b)),
-        Sign(relation, a) => of(a).relation(*relation),
-        Within(a, bound) => format!("Rabs {} <= {}", of(a).argument(), of(bound)),
+        Equal(a, b) => format!("{} = {}", printer.expr(a), printer.expr(b)),
+        Sign(relation, a) => printer.expr(a).relation(*relation),
+        Within(a, bound) => format!("Rabs {} <= {}", printer.expr(a).argument(), printer.expr(bound)),
         Derivative(a, by, b) => {
-            format!("is_derive {}\n    {}\n    {}", function(by, a), ascii(by), of(b).argument())
+            let by = ascii(by);
+            format!(
+                "is_derive (fun {by} => {})\n    {by}\n    {}",
+                printer.expr(a),
+                printer.expr(b).argument()
+            )
         }
-        Limit(a, by, b) => format!("is_lim {} p_infty {}", function(by, a), of(b).argument()),
+        Limit(a, by, b) => {
+            format!(
+                "is_lim (fun {} => {}) p_infty {}",
+                ascii(by),
+                printer.expr(a),
+                printer.expr(b).argument()
+            )
+        }
     }
 }
 
@@ -80,12 +81,6 @@ pub(super) fn divisors<'t>(trees: impl Iterator<Item = &'t Tree>) -> Vec<Tree> {
     all
 }
 
-/// States that no divisor is 0.
-pub(super) fn none_is_zero(divisors: &[Tree], printer: Printer) -> String {
-    let all: Vec<_> = divisors.iter().map(|of| format!("{} <> 0", printer.plain().expr(of))).collect();
-    all.join(" /\\\n  ")
-}
-
 impl<'a> Lemma<'a> {
     /// Returns a lemma for all values of the symbols in its hypotheses and in formulas.
     pub(super) fn new<'t>(
@@ -100,9 +95,7 @@ impl<'a> Lemma<'a> {
     {
         let values = hypotheses.iter().map(|h| &h.value);
         let mut variables = printer.registry.symbols_of(values.chain(trees));
-        if contains_rounding && !variables.contains(&PRECISION) {
-            variables.push(PRECISION);
-        }
+        variables.retain(|name| !contains_rounding || *name != PRECISION && !SCALES.contains(name));
         Lemma { name, printer, variables, hypotheses, contains_rounding }
     }
 
@@ -110,22 +103,17 @@ impl<'a> Lemma<'a> {
         self.contains_rounding && *hypothesis == minimum_precision()
     }
 
-    /// Returns its hypotheses, except the minimum precision, which has another form in Coq.
-    pub(super) fn hypotheses(&self) -> impl Iterator<Item = &'a Hypothesis> {
-        self.hypotheses.iter().copied().filter(|h| !self.is_minimum_precision(h))
-    }
-
-    /// Returns all its hypotheses.
-    pub(super) fn premises(&self) -> &[&'a Hypothesis] {
-        &self.hypotheses
-    }
-
-    /// Returns the label of a hypothesis in proofs: H1, H2, …, and M for the minimum precision.
+    /// Returns the label of a hypothesis in proofs: H1, H2, …, or the proof of the minimum precision.
     pub(super) fn label(&self, hypothesis: &Hypothesis) -> Option<String> {
         if self.is_minimum_precision(hypothesis) {
-            return Some("M".into());
+            return Some(format!("minimum_precision prec {} P E", ascii(PRECISION)));
         }
-        self.hypotheses().position(|h| h == hypothesis).map(|i| format!("H{}", i + 1))
+        self.hypotheses.iter().position(|h| *h == hypothesis).map(|i| format!("H{}", i + 1))
+    }
+
+    /// Returns the hypotheses that it states: the minimum precision is that of its section.
+    fn stated(&self) -> impl Iterator<Item = &'a Hypothesis> {
+        self.hypotheses.iter().copied().filter(|h| !self.is_minimum_precision(h))
     }
 
     /// Removes a variable and the hypotheses on it.
@@ -135,69 +123,21 @@ impl<'a> Lemma<'a> {
         self
     }
 
-    /// Returns the powers of two in it other than 2ᵖ.
-    fn scales(&self) -> impl Iterator<Item = &'static str> {
-        SCALES.into_iter().filter(|scale| self.contains_rounding && self.variables.contains(scale))
-    }
-
-    fn exponents(&self) -> String {
-        spaced(self.scales().map(exponent))
-    }
-
-    /// Introduces all variables and hypotheses: P, E, A1, A2, … for powers of two, and H1, H2, … for
-    /// hypotheses.
-    pub(super) fn intros(&self) -> String {
-        let (variables, labels) = (names(&self.variables), numbered_names("H", self.hypotheses().count()));
-        let labels = spaced(labels);
-        if self.contains_rounding {
-            let (exponents, powers) = (self.exponents(), spaced(numbered_names("A", self.scales().count())));
-            return format!("intros prec choice{exponents} P{variables} E{powers}{labels}.");
-        }
-        // Without variables, `intros` would introduce premises of the statement.
-        if self.variables.is_empty() { String::new() } else { format!("intros{variables}{labels}.") }
-    }
-
-    /// Returns lines that derive Q1, Q2, … from A1, A2, …: the powers of two are positive.
-    pub(super) fn signs_of_scales(&self) -> Vec<String> {
-        let lines = self.scales().zip(1..).map(|(scale, i)| {
-            let exponent = exponent(scale);
-            format!("pose proof (bpow_gt_0 radix2 {exponent}) as Q{i}. rewrite <- A{i} in Q{i}.")
-        });
-        lines.collect()
-    }
-
     /// Returns its name, applied to its variables and to the labels of its hypotheses.
-    pub(super) fn applied(&self, label: impl Fn(&Hypothesis) -> String) -> String {
-        let (variables, labels) = (names(&self.variables), spaced(self.hypotheses().map(label)));
-        let name = &self.name;
-        if self.contains_rounding {
-            return format!("{name} prec choice{} P{variables} E{labels}", self.exponents());
-        }
-        format!("{name}{variables}{labels}")
+    pub(super) fn applied(&self, label: impl Fn(&Hypothesis) -> Option<String>) -> String {
+        let variables = spaced(self.variables.iter().map(|name| ascii(name)));
+        format!("{}{variables}{}", self.name, spaced(self.stated().filter_map(label)))
     }
 
     /// Returns its statement with a proof.
-    pub(super) fn text(&self, keyword: &str, conclusion: &str, proof: Script) -> String {
-        let (mut start, mut lines, mut powers) = (" ", Vec::new(), Vec::new());
-        if self.contains_rounding {
-            let exponents = self.exponents();
-            let exponents =
-                if exponents.is_empty() { exponents } else { format!(" ({} : Z)", &exponents[1..]) };
-            lines.push(format!("forall (prec : Z) (choice : Z -> bool){exponents},"));
-            lines.push("(2 <= prec)%Z ->".into());
-            powers.push(format!("{} = bpow radix2 prec ->", ascii(PRECISION)));
-            powers.extend(
-                self.scales().map(|scale| format!("{} = bpow radix2 {} ->", ascii(scale), exponent(scale))),
-            );
-            start = "\n  ";
-        }
-        if !self.variables.is_empty() {
-            lines.push(format!("forall{} : R,", names(&self.variables)));
-        }
-        lines.extend(powers);
-        lines.extend(self.hypotheses().map(|h| format!("{} ->", format_hypothesis(h, self.printer))));
-        lines.push(conclusion.to_string());
-        let (name, statement, proof) = (&self.name, lines.join("\n  "), proof.into_text());
-        format!("\n{keyword} {name} :{start}{statement}.\nProof.\n{proof}Qed.\n")
+    pub(super) fn text(&self, keyword: &str, conclusion: &str, proof: &str) -> String {
+        let (name, binders) = (&self.name, binders(self.variables.iter().copied()));
+        let hypotheses = self.stated().filter_map(|h| {
+            Some(format!("\n  ({} : {})", self.label(h)?, format_hypothesis(h, self.printer)))
+        });
+        let hypotheses: String = hypotheses.collect();
+        format!(
+            "\n{keyword} {name}{binders}{hypotheses} :\n  {conclusion}.\nProof.\n  functions.\n{proof}Qed.\n"
+        )
     }
 }

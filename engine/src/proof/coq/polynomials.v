@@ -1,73 +1,46 @@
-(** * Polynomials with whole coefficients, and their signs: a program, and its proof.
-
-    Whatever claims say of signs and equalities is decided by it; see [A_Tactics]. *)
+(** * Polynomials with whole coefficients, and their signs: a program, and its proof. *)
 From Coq Require Import List Bool ZArith NArith Ascii String Reals Lra Lia.
 Import ListNotations.
 Open Scope list_scope.
 Open Scope R_scope.
 
-(** ** Polynomials
-
-    A number, or p + x q, where x is the first of the variables and does not occur in p. *)
+(** ** Polynomials *)
+(** A number, or p + x q, where x is the first of the variables and does not occur in p. *)
 Inductive poly :=
-  | Const (z : Z)
-  | Grow (p q : poly).
+  | Const (z : Z) | Grow (p q : poly).
 
 Fixpoint value (env : list R) (p : poly) : R :=
-  match p with
-  | Const z => IZR z
-  | Grow p q => value (tl env) p + hd 0 env * value env q
-  end.
+  match p with Const z => IZR z | Grow p q => value (tl env) p + hd 0 env * value env q end.
 
 (** A number is always written as a number. *)
 Definition grow (p q : poly) : poly :=
-  match p, q with
-  | Const z, Const 0 => Const z
-  | _, _ => Grow p q
-  end.
+  match p, q with Const z, Const 0 => Const z | _, _ => Grow p q end.
 
 Fixpoint variable (n : nat) : poly :=
-  match n with
-  | O => Grow (Const 0) (Const 1)
-  | S n => Grow (variable n) (Const 0)
-  end.
+  match n with O => Grow (Const 0) (Const 1) | S n => Grow (variable n) (Const 0) end.
 
 Fixpoint add_number (z : Z) (p : poly) : poly :=
-  match p with
-  | Const y => Const (z + y)
-  | Grow p q => Grow (add_number z p) q
-  end.
+  match p with Const y => Const (z + y) | Grow p q => Grow (add_number z p) q end.
 
 Fixpoint add (p q : poly) : poly :=
   match p, q with
-  | Const z, _ => add_number z q
-  | _, Const z => add_number z p
+  | Const z, _ => add_number z q | _, Const z => add_number z p
   | Grow a b, Grow c d => grow (add a c) (add b d)
   end.
 
 Fixpoint times (z : Z) (p : poly) : poly :=
-  match p with
-  | Const y => Const (z * y)
-  | Grow p q => Grow (times z p) (times z q)
-  end.
+  match p with Const y => Const (z * y) | Grow p q => Grow (times z p) (times z q) end.
 
 Definition scale (z : Z) (p : poly) : poly :=
-  match z with
-  | 0%Z => Const 0
-  | _ => times z p
-  end.
+  match z with 0%Z => Const 0 | _ => times z p end.
 
 (** [f] at the coefficient of each power of the first variable. *)
 Fixpoint each (f : poly -> poly) (q : poly) : poly :=
-  match q with
-  | Const z => grow (f (Const z)) (Const 0)
-  | Grow c d => grow (f c) (each f d)
-  end.
+  match q with Const z => grow (f (Const z)) (Const 0) | Grow c d => grow (f c) (each f d) end.
 
 Fixpoint mul (p q : poly) : poly :=
   match p, q with
-  | Const z, _ => scale z q
-  | _, Const z => scale z p
+  | Const z, _ => scale z q | _, Const z => scale z p
   | Grow a b, Grow c d => grow (mul a c) (add (each (mul a) d) (mul b q))
   end.
 
@@ -80,10 +53,7 @@ Lemma value_grow p q env : value env (grow p q) = value (tl env) p + hd 0 env * 
 Proof. destruct p, q as [[ | | ] | ]; simpl; ring. Qed.
 
 Lemma value_variable n env : value env (variable n) = nth n env 0.
-Proof.
-  revert env; induction n as [ | n I]; intros [ | x env]; simpl; rewrite ?I; simpl; try ring.
-  destruct n; ring.
-Qed.
+Proof. revert env; induction n as [ | n I]; intros [ | x env]; simpl; rewrite ?I; simpl; try ring. destruct n; ring. Qed.
 
 Lemma value_add_number z p env : value env (add_number z p) = IZR z + value env p.
 Proof.
@@ -110,16 +80,12 @@ Proof. destruct z; cbn [scale]; rewrite ?value_times; simpl; ring. Qed.
 
 Lemma value_each f y q env :
   (forall c, value (tl env) (f c) = y * value (tl env) c) -> value env (each f q) = y * value env q.
-Proof.
-  intro F. induction q as [z | c _ d I]; cbn [each]; rewrite value_grow, F, ?I; simpl; ring.
-Qed.
+Proof. intro F. induction q as [z | c _ d I]; cbn [each]; rewrite value_grow, F, ?I; simpl; ring. Qed.
 
 Lemma value_mul p q env : value env (mul p q) = value env p * value env q.
 Proof.
-  revert q env; induction p as [z | a I b J]; intros [y | c d] env; cbn [mul]; rewrite ?value_scale;
-    [simpl; ring | simpl; ring | simpl; ring | ].
-  rewrite value_grow, value_add, I, J, (value_each _ (value (tl env) a)) by (intro; apply I).
-  simpl. ring.
+  revert q env; induction p as [z | a I b J]; intros [y | c d] env; cbn [mul]; rewrite ?value_scale; try (simpl; ring).
+  rewrite value_grow, value_add, I, J, (value_each _ (value (tl env) a)) by (intro; apply I). simpl. ring.
 Qed.
 
 Lemma same_value p q env : poly_beq p q = true -> value env p = value env q.
@@ -127,8 +93,7 @@ Proof. intros ->%internal_poly_dec_bl. reflexivity. Qed.
 
 Definition power (p : poly) (d : nat) : poly := Nat.iter d (mul p) (Const 1).
 
-(** A polynomial as text: terms with signs, and variables, each a character, with powers. A number 1 is left
-    out. *)
+(** A polynomial as text: terms with signs, and variables, each a character, with powers. A 1 is left out. *)
 Fixpoint tokens (text : string) (symbol number : N) : list (N * N) :=
   match text with
   | EmptyString => [(symbol, number)]
@@ -163,20 +128,14 @@ Proof.
   rewrite value_add, value_mul, I, J. destruct values as [ | v values]; simpl; ring.
 Qed.
 
-(** ** Signs of forms
-
-    What is known of a number: its sign, or that it lies between -1 and 1, or nothing. *)
+(** ** Signs of forms *)
+(** What is known of a number: its sign, or that it lies between -1 and 1, or nothing. *)
 Inductive kind := Positive | NonNegative | Zero | NonPositive | Negative | Unit | Any.
 
 Definition of_kind (k : kind) (x : R) : Prop :=
   match k with
-  | Positive => 0 < x
-  | NonNegative => 0 <= x
-  | Zero => x = 0
-  | NonPositive => x <= 0
-  | Negative => x < 0
-  | Unit => -1 <= x <= 1
-  | Any => True
+  | Positive => 0 < x | NonNegative => 0 <= x | Zero => x = 0 | NonPositive => x <= 0
+  | Negative => x < 0 | Unit => -1 <= x <= 1 | Any => True
   end.
 
 Definition plus (j k : kind) : kind :=
@@ -185,59 +144,35 @@ Definition plus (j k : kind) : kind :=
   | Positive, (Positive | NonNegative) | NonNegative, Positive => Positive
   | NonNegative, NonNegative => NonNegative
   | Negative, (Negative | NonPositive) | NonPositive, Negative => Negative
-  | NonPositive, NonPositive => NonPositive
-  | _, _ => Any
-  end.
-
-Definition opposite (k : kind) : kind :=
-  match k with
-  | Positive => Negative
-  | NonNegative => NonPositive
-  | NonPositive => NonNegative
-  | Negative => Positive
-  | k => k
+  | NonPositive, NonPositive => NonPositive | _, _ => Any
   end.
 
 Definition product (j k : kind) : kind :=
   match j, k with
-  | Zero, _ | _, Zero => Zero
-  | (Unit | Any), _ | _, (Unit | Any) => Any
-  | Positive, k | k, Positive => k
-  | Negative, k | k, Negative => opposite k
-  | NonNegative, k | k, NonNegative => k
-  | NonPositive, NonPositive => NonNegative
+  | Zero, _ | _, Zero => Zero | (Unit | Any), _ | _, (Unit | Any) => Any
+  | Positive, k | k, Positive => k | Negative, Negative => Positive
+  | Negative, NonPositive | NonPositive, (Negative | NonPositive) | NonNegative, NonNegative => NonNegative
+  | _, _ => NonPositive
   end.
 
 Definition is_strict (k : kind) : bool :=
-  match k with
-  | Positive | Negative => true
-  | _ => false
-  end.
+  match k with Positive | Negative => true | _ => false end.
 
 (** Does the second follow from the first? *)
 Definition implies (j k : kind) : bool :=
   match j, k with
   | Positive, (Positive | NonNegative) | NonNegative, NonNegative | Zero, (NonNegative | Zero | NonPositive)
-  | Negative, (Negative | NonPositive) | NonPositive, NonPositive => true
-  | _, _ => false
+  | Negative, (Negative | NonPositive) | NonPositive, NonPositive => true | _, _ => false
   end.
 
 Definition of_number (z : Z) : kind :=
-  match z with
-  | Zpos _ => Positive
-  | Z0 => Zero
-  | Zneg _ => Negative
-  end.
+  match z with Zpos _ => Positive | Z0 => Zero | Zneg _ => Negative end.
 
 (** Of a polynomial in units: no value is greater in size. *)
 Fixpoint size (p : poly) : Z :=
-  match p with
-  | Const z => Z.abs z
-  | Grow p q => size p + size q
-  end.
+  match p with Const z => Z.abs z | Grow p q => size p + size q end.
 
-(** No value is less, of the polynomial times a square that is at most 1; and times the first unit and such a
-    square. *)
+(** No value is less, of the polynomial times a square of at most 1; and times the first unit and such a square. *)
 Fixpoint least_of_even (p : poly) : Z :=
   match p with
   | Const z => Z.min 0 z
@@ -246,37 +181,22 @@ Fixpoint least_of_even (p : poly) : Z :=
       match q with Const z => - Z.abs z | Grow q r => least_of_even r - size q end
   end.
 Definition least_of_odd (p : poly) : Z :=
-  match p with
-  | Const z => - Z.abs z
-  | Grow q r => least_of_even r - size q
-  end.
+  match p with Const z => - Z.abs z | Grow q r => least_of_even r - size q end.
 Fixpoint least (p : poly) : Z :=
-  match p with
-  | Const z => z
-  | Grow p q => least p + least_of_odd q
-  end.
+  match p with Const z => z | Grow p q => least p + least_of_odd q end.
 
 Definition of_units (p : poly) : kind :=
-  match of_number (least p) with
-  | Positive => Positive
-  | j =>
-      match j, of_number (least (times (-1) p)) with
-      | _, Positive => Negative
-      | Zero, Zero => Zero
-      | Zero, _ => NonNegative
-      | _, Zero => NonPositive
-      | _, _ => Any
-      end
+  match of_number (least p), of_number (least (times (-1) p)) with
+  | Positive, _ => Positive | _, Positive => Negative | Zero, Zero => Zero | Zero, _ => NonNegative
+  | _, Zero => NonPositive | _, _ => Any
   end.
 
 (** Units come last: for each product of the others stands a polynomial in units. *)
 Fixpoint of_form (kinds : list kind) (p : poly) : kind :=
   match kinds, p with
-  | _, Const z => of_number z
-  | [], _ => Any
+  | _, Const z => of_number z | [], _ => Any
   | Unit :: others, _ => if forallb (fun k => match k with Unit => true | _ => false end) others then of_units p else Any
-  | Zero :: others, Grow p _ => of_form others p
-  | Any :: others, Grow p (Const 0) => of_form others p
+  | Zero :: others, Grow p _ => of_form others p | Any :: others, Grow p (Const 0) => of_form others p
   | Any :: others, Grow p (Grow (Const 0) q) =>
       plus (of_form others p) (product NonNegative (of_form kinds q))
   | Any :: _, Grow _ _ => Any
@@ -307,8 +227,7 @@ Lemma value_size p env : all_units env -> - IZR (size p) <= value env p <= IZR (
 Proof.
   revert env; induction p as [z | p I q J]; intros env U; simpl.
   - rewrite abs_IZR. unfold Rabs. destruct (Rcase_abs (IZR z)); lra.
-  - destruct (units_tl env U) as [T B]. rewrite plus_IZR.
-    specialize (I _ T). specialize (J _ U). nra.
+  - destruct (units_tl env U) as [T B]. rewrite plus_IZR. specialize (I _ T). specialize (J _ U). nra.
 Qed.
 
 Lemma value_least_of p :
@@ -324,8 +243,7 @@ Proof.
     destruct (I (tl env) m T M) as [P _], (J env m U M) as [_ Q]. split; [lra | ].
     assert (0 <= hd 0 env * hd 0 env <= 1) as S by nra.
     assert (0 <= m * (hd 0 env * hd 0 env) <= 1) as N by (generalize dependent (hd 0 env * hd 0 env); intros; nra).
-    destruct (J env (m * (hd 0 env * hd 0 env)) U N) as [Q' _].
-    assert (- IZR (size p) <= m * hd 0 env * value (tl env) p).
+    destruct (J env (m * (hd 0 env * hd 0 env)) U N) as [Q' _]. assert (- IZR (size p) <= m * hd 0 env * value (tl env) p).
     { pose proof (value_size p (tl env) T). assert (-1 <= m * hd 0 env <= 1) by nra. nra. }
     lra.
 Qed.

@@ -1,6 +1,6 @@
 //! Names of formulas and functions in Coq.
 
-use super::expr::{Expr, Operator};
+use super::expr::Expr;
 use super::{PROGRAM, is_part_of_name};
 use crate::formula::{Formula, Registry};
 use crate::number::Tree;
@@ -111,10 +111,9 @@ impl Printer<'_> {
     pub(super) fn expr(self, tree: &Tree) -> Expr {
         match self.registry.calls(tree).min_by_key(|call| self.preference(call.formula)) {
             Some(call) => {
-                let common = self.registry.common_symbols(call.formula);
+                let common = self.registry.common_symbols(call.formula).map(|name| Expr::word(ascii(name)));
                 let arguments = call.arguments.iter().map(|argument| self.expr(argument));
-                let all = common.map(|name| Expr::Name(ascii(name))).chain(arguments).collect();
-                Expr::Call(function(call.formula), all)
+                Expr::call(&function(call.formula), common.chain(arguments))
             }
             None => self.last_operation(tree),
         }
@@ -136,22 +135,22 @@ impl Printer<'_> {
     }
 
     fn last_operation(self, tree: &Tree) -> Expr {
-        use Operator::*;
-        let expr = match tree.op() {
-            Op::Symbol(name) => Expr::Name(ascii(name)),
-            Op::Int(n) => Expr::int(*n),
-            Op::Neg(a) => self.expr(a).negated(),
-            Op::Add(a, b) => Expr::binary(Add, self.expr(a), self.expr(b)),
-            Op::Sub(a, b) => Expr::binary(Sub, self.expr(a), self.expr(b)),
-            Op::Mul(a, b) => Expr::binary(Mul, self.expr(a), self.expr(b)),
-            Op::Div(a, b) => Expr::binary(Div, self.expr(a), self.expr(b)),
-            Op::Exp(a) => Expr::Call("exp".into(), vec![self.expr(a)]),
-            Op::PositivePart(a) => Expr::Call("Rmax".into(), vec![self.expr(a), Expr::int(0)]),
-            Op::Min(a, b) => Expr::Call("Rmin".into(), vec![self.expr(a), self.expr(b)]),
-            Op::Rounded(a) => Expr::Call("fl prec choice".into(), vec![self.expr(a)]),
-        };
         // The rules of differentiation produce 0 x, 1 x and x + 0; only these are simplified.
-        if tree.site().is_in_dual_numbers() { expr.simplified() } else { expr }
+        let join = if tree.site().is_in_dual_numbers() { Expr::simplified } else { Expr::binary };
+        match tree.op() {
+            Op::Symbol(name) => Expr::word(ascii(name)),
+            Op::Int(n) if *n < 0 => Expr::word(n.unsigned_abs()).negated(),
+            Op::Int(n) => Expr::word(n),
+            Op::Neg(a) => self.expr(a).negated(),
+            Op::Add(a, b) => join('+', self.expr(a), self.expr(b)),
+            Op::Sub(a, b) => join('-', self.expr(a), self.expr(b)),
+            Op::Mul(a, b) => join('*', self.expr(a), self.expr(b)),
+            Op::Div(a, b) => join('/', self.expr(a), self.expr(b)),
+            Op::Exp(a) => Expr::call("exp", [self.expr(a)]),
+            Op::PositivePart(a) => Expr::call("Rmax", [self.expr(a), Expr::word(0)]),
+            Op::Min(a, b) => Expr::call("Rmin", [self.expr(a), self.expr(b)]),
+            Op::Rounded(a) => Expr::call("fl prec choice", [self.expr(a)]),
+        }
     }
 }
 

@@ -1,231 +1,204 @@
-//! Proofs of goals by Coq's tactics, from certificates.
-//!
-//! A script follows the checker: each quantity that is not computed by the four operations gets a name, the
-//! facts are listed in the order in which the checker knows them, and a program proved correct in Coq checks
-//! the certificates.
-
-mod leaf;
-mod limit;
+//! Proofs of goals as inputs of the program in Coq: numbers, what is given of them, and the steps of the checker.
 
 use super::lemma::{Lemma, Result};
 use super::print::{ascii, simplified};
-use crate::formula::claim::PRECISION;
+use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Proposition, Registry, Statement};
-use crate::proof::check::{Atom, Node, Polynomial, Problem, Sign};
+use crate::number::tree::Op;
+use crate::proof::check::{Atom, Certificate, Law, Node, Polynomial, Problem, Step};
 use crate::proof::render::ProofPrinter;
 use crate::proof::search::prove_proposition;
-use std::fmt::Write;
 
-/// Lines of a proof.
-#[derive(Clone, Default)]
-pub(super) struct Script {
-    lines: String,
-    indent: usize,
+/// Returns the call of the program that proves a proposition from hypotheses. Those that a lemma about a limit does not
+/// state hold for large values of its variable.
+pub(super) fn program(
+    lemma: &Lemma,
+    hypotheses: &[&Hypothesis],
+    proposition: &Proposition,
+) -> Result<String> {
+    // Formulas are simplified as they are printed.
+    let proposition = proposition.map(&simplified);
+    let problem = Problem::new(&proposition, hypotheses.to_vec())?;
+    let node = prove_proposition(&proposition, hypotheses.to_vec()).map_err(|reason| {
+        let statement = Statement::new("", proposition.clone()).assuming(hypotheses.iter().copied());
+        let reason = ProofPrinter::new(&Registry::default()).describe(&statement, &reason);
+        format!("no proof to follow: {reason}")
+    })?;
+    let mut writer = Writer { lemma, problem: &problem, given: Vec::new() };
+    writer.give_hypotheses()?;
+    writer.give_values()?;
+    let proof = writer.node(&node)?;
+    let atoms = problem.table.atoms().iter().map(|atom| writer.atom(*atom));
+    let atoms = atoms.collect::<Result<Vec<_>>>()?;
+    let atoms = if atoms.is_empty() { "@nil R".into() } else { list(&atoms) };
+    let variable = problem.variable().map_or("_".into(), ascii);
+    let given: String = writer.given.iter().map(|proof| format!(", {proof}")).collect();
+    Ok(format!("(fun {variable} : R => {atoms}) (fun {variable} : R => (I{given}))\n    {proof}"))
 }
 
-/// A problem to be proved in Coq.
-#[derive(Clone)]
-struct Target<'p> {
-    lemma: &'p Lemma<'p>,
-    problem: &'p Problem<'p>,
-    /// The labels of its hypotheses.
-    labels: Vec<Option<String>>,
-    /// The tactic that proves its leaves.
-    tactic: &'static str,
-    /// The variable of a limit, where it is known to be positive.
-    positive: Option<usize>,
+/// The proof of a problem in Coq.
+struct Writer<'w> {
+    lemma: &'w Lemma<'w>,
+    problem: &'w Problem<'w>,
+    /// Proofs of what steps use: the hypotheses, the values of roundings and absolute values, and instances of laws.
+    given: Vec<String>,
 }
 
-impl<'p> Target<'p> {
-    fn new(lemma: &'p Lemma<'p>, problem: &'p Problem<'p>, labels: Vec<Option<String>>) -> Self {
-        let is_smooth = matches!(problem.proposition, Proposition::Derivative(..));
-        let tactic = if is_smooth { "auto_derive; derived" } else { "shown" };
-        Target { lemma, problem, labels, tactic, positive: None }
-    }
-
-    /// Calls `write` with the problem of a proposition whose formulas are simplified, as they are printed.
-    fn with(
-        lemma: &Lemma,
-        hypotheses: &[&Hypothesis],
-        proposition: &Proposition,
-        write: impl FnOnce(Target) -> Result<()>,
-    ) -> Result<()> {
-        let proposition = proposition.map(&simplified);
-        let problem = Problem::new(&proposition, hypotheses.to_vec())?;
-        write(Target::new(lemma, &problem, hypotheses.iter().map(|h| lemma.label(h)).collect()))
-    }
-
-    /// Searches for a proof of the problem.
-    fn proof(&self) -> Result<Node> {
-        let Problem { proposition, hypotheses, .. } = self.problem;
-        let found = prove_proposition(proposition, hypotheses.clone()).map_err(|reason| {
-            let statement = Statement::new("", (*proposition).clone()).assuming(hypotheses.iter().copied());
-            let reason = ProofPrinter::new(&Registry::default()).describe(&statement, &reason);
-            format!("no proof to follow: {reason}")
-        })?;
-        Ok(found)
-    }
-
-    /// Returns the name of an atom: that of a symbol, or s and its number.
-    fn name(&self, x: usize) -> String {
-        match self.problem.table.atoms().get(x) {
-            Some(Atom::Own(name)) => ascii(name),
-            _ => format!("s{x}"),
-        }
-    }
-
+impl Writer<'_> {
     /// Writes the formula with a number as an argument.
     fn formula(&self, number: usize) -> Result<String> {
-        let tree = self.problem.table.formula(number)?;
-        Ok(self.lemma.printer.expr(tree).argument())
+        Ok(self.lemma.printer.expr(self.problem.table.formula(number)?).argument())
     }
 
-    fn variable(&self, atom: Atom) -> Result<usize> {
-        Ok(self.problem.table.variable(atom)?)
-    }
-
-    fn label(&self, i: usize) -> Option<&str> {
-        self.labels.get(i)?.as_deref()
-    }
-
-    /// Returns the numbers of a program in Coq; one that does not occur stands for what is not in scope.
-    fn environment(&self, is_known: impl Fn(usize) -> bool) -> String {
-        let atoms = 0..self.problem.table.atoms().len();
-        let names: Vec<_> = atoms.map(|x| if is_known(x) { self.name(x) } else { "PI".into() }).collect();
-        if names.is_empty() { "(@nil R)".into() } else { leaf::list(names) }
-    }
-}
-
-impl Script {
-    pub(super) fn new() -> Self {
-        Script { indent: 1, ..Script::default() }
-    }
-
-    /// Begins a proof by introducing the variables and hypotheses of a lemma.
-    pub(super) fn of(lemma: &Lemma) -> Self {
-        let mut script = Script::new();
-        let intros = lemma.intros();
-        script.line(format!("{intros} functions.").trim_start());
-        lemma.signs_of_scales().iter().for_each(|line| script.line(line));
-        script
-    }
-
-    pub(super) fn into_text(self) -> String {
-        self.lines
-    }
-
-    pub(super) fn line(&mut self, text: &str) {
-        let _ = writeln!(self.lines, "{:1$}{text}", "", 2 * self.indent);
-    }
-
-    /// Writes a subproof.
-    pub(super) fn block(&mut self, bullet: &str, inside: impl FnOnce(&mut Self) -> Result<()>) -> Result<()> {
-        let mut block = Script { lines: String::new(), indent: self.indent + 1 };
-        inside(&mut block)?;
-        let pad = " ".repeat(2 * self.indent);
-        let text = block.lines.trim_start();
-        let end = if bullet == "{" { " }\n" } else { "\n" };
-        let _ = write!(self.lines, "{pad}{bullet} {}{end}", text.trim_end());
-        Ok(())
-    }
-
-    /// Proves a proposition from the hypotheses of a lemma.
-    pub(super) fn goal(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
-        Target::with(lemma, lemma.premises(), proposition, |target| self.problem(&target))
-    }
-
-    /// Proves that the left side of an equation is continuous in the variable of the goal.
-    pub(super) fn continuity(&mut self, lemma: &Lemma, proposition: &Proposition) -> Result<()> {
-        let tactic = "auto_derive; derived";
-        Target::with(lemma, lemma.premises(), proposition, |target| {
-            self.problem(&Target { tactic, ..target })
+    /// Returns the number that an atom stands for.
+    fn atom(&self, atom: Atom) -> Result<String> {
+        Ok(match atom {
+            Atom::Own(name) => ascii(name),
+            Atom::Error(of) => {
+                format!("clamp (error prec choice {} {})", ascii(PRECISION), self.formula(of)?)
+            }
+            Atom::Exponential(of) => format!("exp {}", self.formula(of)?),
+            Atom::Size(of) => format!("Rabs {}", self.formula(of)?),
+            Atom::Factor(of) => format!("clamp (factor {})", self.formula(of)?),
+            Atom::IntervalParameter(i) => {
+                let (x, lower, upper) = self.problem.hypotheses[i].interval().ok_or("no interval")?;
+                let [lower, upper] = [lower, upper].map(|end| self.lemma.printer.expr(end).argument());
+                format!("clamp (parameter {lower} {upper} {})", ascii(x))
+            }
         })
     }
 
-    /// Proves the proposition of a problem.
-    fn problem(&mut self, target: &Target) -> Result<()> {
-        let node = target.proof()?;
-        self.names(target, |_| true)?;
-        self.node(target, &node, &mut Vec::new())
-    }
-
-    fn node(&mut self, target: &Target, node: &Node, cases: &mut Vec<(Polynomial, Sign)>) -> Result<()> {
-        match node {
-            Node::Leaf(steps) => self.leaf(target, steps, cases),
-            Node::Cases(on, both) => {
-                let case = format!("C{}", cases.len() + 1);
-                let env = target.environment(|_| true);
-                let deciding = format!("value {env} (polynomial {})", leaf::text(on));
-                self.line(&format!("destruct (either ({deciding})) as [{case} | {case}]."));
-                for (node, sign) in both.iter().zip([Sign::Positive, Sign::NonPositive]) {
-                    cases.push((on.clone(), sign));
-                    self.block("{", |script| script.node(target, node, cases))?;
-                    cases.pop();
+    fn give_hypotheses(&mut self) -> Result<()> {
+        for (i, hypothesis) in self.problem.hypotheses.iter().enumerate() {
+            let label = self.lemma.label(hypothesis);
+            self.given.push(match label {
+                _ if self.problem.mentions_variable(i) => {
+                    let value = self.lemma.printer.expr(&hypothesis.value);
+                    format!("later ({})", value.relation(hypothesis.relation))
                 }
-                Ok(())
-            }
-        }
-    }
-
-    /// Introduces the chosen atoms with what defines them: B1, B2, … are their signs or bounds, F1, F2, … their
-    /// equations.
-    fn names(&mut self, target: &Target, is_chosen: impl Fn(usize) -> bool) -> Result<()> {
-        let precision = ascii(PRECISION);
-        if target.lemma.contains_rounding {
-            self.line(&format!("pose proof (four_at_least prec {precision} P E) as N."));
-            self.line(&format!("assert (M : 0 <= {precision} - 4) by lra."));
-        }
-        let before = self.lines.len();
-        for (x, atom) in target.problem.table.atoms().iter().enumerate().filter(|(x, _)| is_chosen(*x)) {
-            let (rule, names) = match *atom {
-                Atom::Own(_) | Atom::Factor(_) => continue,
-                Atom::Error(of) => {
-                    let of = target.formula(of)?;
-                    (format!("model prec choice {precision} P E {of}"), format!("s{x} & B{x} & F{x}"))
-                }
-                Atom::IntervalParameter(i) => {
-                    let is_near = target.problem.hypotheses[i].distance().is_some();
-                    let rule = if is_near { "near" } else { "between" };
-                    let label = target.label(i).ok_or("an interval of the variable of a limit")?;
-                    (format!("{rule} _ _ _ {label}"), format!("s{x} & B{x} & F{x}"))
-                }
-                Atom::Size(of) => {
-                    let y = target.variable(Atom::Factor(of))?;
-                    let names = format!("s{x} & s{y} & B{x} & B{y} & F{x} & F{y}");
-                    (format!("absolute {}", target.formula(of)?), names)
-                }
-                Atom::Exponential(of) => {
-                    (format!("exponential {}", target.formula(of)?), format!("s{x} & B{x} & F{x}"))
-                }
-            };
-            self.line(&format!("destruct ({rule}) as ({names})."));
-        }
-        if self.lines.len() > before {
-            self.line("functions.");
+                Some(label) if hypothesis.distance().is_some() => format!("near _ _ _ {label}"),
+                Some(label) if hypothesis.interval().is_some() => format!("between _ _ _ {label}"),
+                label => label.ok_or("a hypothesis without a label")?,
+            });
         }
         Ok(())
     }
+
+    /// Lists the values of absolute values and of rounded formulas, each after those in it.
+    fn give_values(&mut self) -> Result<()> {
+        let table = &self.problem.table;
+        for atom in table.atoms() {
+            if let Atom::Size(of) = atom {
+                self.given.push(format!("absolute {}", self.formula(*of)?));
+            }
+        }
+        let two_p = ascii(PRECISION);
+        for op in (0..).map_while(|i| table.op(i).ok()) {
+            let Op::Rounded(of) = op else { continue };
+            let (powers, unscaled) = table.rounding(of);
+            if table.variable(Atom::Error(unscaled)).is_err() {
+                continue;
+            }
+            let (own, error) = (self.formula(of)?, self.formula(unscaled)?);
+            let [down, up] = [-1, 1].map(|sign| product_of_scales(powers.map(|n| sign * n)));
+            self.given.push(format!("model prec choice {two_p} P E {error}"));
+            if unscaled != of {
+                let powers = "ltac:(power_of_two) ltac:(power_of_two)";
+                self.given
+                    .push(format!("same_error prec choice {two_p} {down} {up} {own} {error} P E {powers}"));
+            }
+        }
+        Ok(())
+    }
+
+    fn node(&mut self, node: &Node) -> Result<String> {
+        Ok(match node {
+            Node::Leaf(steps) => {
+                let steps = steps.iter().map(|step| self.step(step)).collect::<Result<Vec<_>>>()?;
+                format!("(Steps {})", list(&steps))
+            }
+            Node::Cases(on, both) => {
+                let [positive, not] = [&both[0], &both[1]].map(|node| self.node(node));
+                format!("(Cases {}\n    {}\n    {})", text(on), positive?, not?)
+            }
+        })
+    }
+
+    fn step(&mut self, step: &Step) -> Result<String> {
+        Ok(match step {
+            Step::Assume(i) => format!("Given {i}"),
+            Step::Show(of, Certificate { known, left, right }) => {
+                format!("Shown {} {} {} {}", text(of), numbers(known), text(left), text(right))
+            }
+            Step::Square(of) => format!("Squared {}", text(of)),
+            Step::Divisor(factors) => format!("Divisor {}", numbers(factors)),
+            Step::Law(law) => {
+                let law = self.law(law)?;
+                self.given.push(law);
+                format!("Given {}", self.given.len() - 1)
+            }
+        })
+    }
+
+    /// Returns the proof of an instance of a law.
+    fn law(&self, law: &Law) -> Result<String> {
+        Ok(match law {
+            Law::Exponents { left, right } => {
+                let [left, right] = [left, right]
+                    .map(|all| all.iter().map(|x| self.exponent(*x)).collect::<Result<Vec<_>>>());
+                format!("same_exponents {} {}", list(&left?), list(&right?))
+            }
+            Law::AboveTangent(x) => format!("above_tangent {}", self.exponent(*x)?),
+            Law::BelowPole(x) => format!("below_pole {}", self.exponent(*x)?),
+            Law::AbsoluteValue(of) => format!("own_factor {}", self.formula(*of)?),
+            Law::Signed(of) => format!("own_size {}", self.formula(*of)?),
+            Law::Order(rounded) => {
+                let [a, b] = rounded.map(|rounded| match self.problem.table.op(rounded)? {
+                    Op::Rounded(of) => self.formula(of),
+                    _ => Err("an order of other formulas than rounded ones".into()),
+                });
+                format!("ordered prec choice P {} {}", a?, b?)
+            }
+        })
+    }
+
+    /// Writes the exponent of an exponential as an argument.
+    fn exponent(&self, x: usize) -> Result<String> {
+        match self.problem.table.atoms().get(x) {
+            Some(Atom::Exponential(of)) => self.formula(*of),
+            _ => Err("a law about another quantity than an exponential".into()),
+        }
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// Returns a product of scales to those powers that are positive, as an argument.
+fn product_of_scales(powers: [i32; 3]) -> String {
+    let factors = SCALES.iter().zip(powers).flat_map(|(scale, n)| (0..n).map(move |_| ascii(scale)));
+    format!("({})", factors.fold("1".into(), |product: String, scale| format!("{product} * {scale}")))
+}
 
-    #[test]
-    fn blocks_are_indented_behind_their_bullets() {
-        let mut script = Script::new();
-        script.line("one.");
-        script
-            .block("{", |own| {
-                own.line("two.");
-                own.block("-", |own| {
-                    own.line("three.");
-                    own.line("four.");
-                    Ok(())
-                })
-            })
-            .unwrap();
-        script.line("five.");
-        assert_eq!(script.into_text(), "  one.\n  { two.\n    - three.\n      four. }\n  five.\n");
+/// Returns a list in Coq.
+fn list(items: &[String]) -> String {
+    format!("[{}]", items.join("; "))
+}
+
+fn numbers(all: &[usize]) -> String {
+    format!("{}%nat", list(&all.iter().map(usize::to_string).collect::<Vec<_>>()))
+}
+
+/// Returns a polynomial as text: terms with signs, and a character for each variable.
+fn text(of: &Polynomial) -> String {
+    let mut terms = Vec::new();
+    for (powers, coefficient) in of.terms() {
+        let factors = powers.iter().zip(b'?'..).filter(|(n, _)| **n > 0);
+        let factors = factors.map(|(n, x)| format!("{}{}", char::from(x), unless_one((*n).into())));
+        let sign = if coefficient.is_negative() { '-' } else { '+' };
+        let number = unless_one(coefficient.unsigned_abs());
+        terms.push(format!("{sign}{number}{}", factors.collect::<String>()));
     }
+    format!("\"{}\"", terms.join(" "))
+}
+
+fn unless_one(n: u128) -> String {
+    if n == 1 { String::new() } else { n.to_string() }
 }

@@ -1,13 +1,10 @@
-(** * Tactics of all proofs: how a goal is passed to the program.
-
-    Numbers that are not computed by the four operations get names; the program replaces them by their equations,
-    and certificates then show equalities and signs. Slopes and limits have lemmas. *)
+(** * Tactics of all proofs: how a goal is passed to the program. *)
+(** Numbers that the four operations do not compute are variables there, with equations. *)
 From Coq Require Export String Reals Lra List.
 From Coquelicot Require Export Coquelicot.
 From LIBRARY Require Import A_Polynomials.
-From LIBRARY Require A_Quotients.
-Export A_Polynomials(value, polynomial).
-Export A_Quotients(Shown, Squared, Divisor, identity).
+From LIBRARY Require A_Powers A_Quotients.
+Export A_Quotients(Given, Shown, Squared, Divisor, Steps, Cases).
 Export ListNotations.
 Open Scope R_scope.
 
@@ -16,25 +13,32 @@ Create HintDb functions.
 (** Every function of the functions by its formula. *)
 Ltac functions := autounfold with functions in *; cbv beta in *.
 
-(** ** Goals for the program
+(** ** Goals for the program *)
+(** A number between -1 and 1. *)
+Definition clamp (x : R) : R := Rmax (-1) (Rmin 1 x).
 
-    A formula of [env], with each step by what the program calls it. *)
+(** The numbers, with their places; those that can contain others last. *)
+Ltac numbered env n :=
+  lazymatch env with
+  | [] => constr:(@nil (R * nat))
+  | ?v :: ?env =>
+      let l := numbered env (S n) in
+      lazymatch v with clamp _ => eval cbv [app] in (l ++ [(v, n)]) | _ => constr:((v, n) :: l) end
+  end.
+
+(** A formula of [env], with each step by what the program calls it. *)
 Ltac abstracted x env :=
   lazymatch env with
   | [] => x
-  | ?v :: ?env => let f := abstracted x env in lazymatch eval pattern v in f with ?f _ => f end
+  | (?v, _) :: ?env => let f := abstracted x env in lazymatch eval pattern v in f with ?f _ => f end
   end.
-Ltac at_symbols f n env :=
+Ltac at_symbols f env :=
   lazymatch env with
-  | [] => f
-  | _ :: ?env => at_symbols constr:(f (A_Quotients.Symbol n)) (S n) env
+  | [] => f | (_, ?n) :: ?env => at_symbols constr:(f (A_Quotients.Symbol n)) env
   end.
 (** A formula in [env], and the function that rounds in it, if any. *)
 Ltac rounding := constr:(id).
 Ltac formula x env :=
-  lazymatch x with
-  | value env ?p => constr:(A_Quotients.Polynomial p)
-  | _ =>
   let x := eval cbv [Rminus Rdiv pow] in x in
   let f := abstracted x env in
   let fl := rounding in
@@ -45,197 +49,187 @@ Ltac formula x env :=
       let f := constr:(f A_Quotients.formula A_Quotients.Sum A_Quotients.Product A_Quotients.Opposite
                          A_Quotients.Inverse A_Quotients.Literal A_Quotients.Minimum
                          (fun a _ => A_Quotients.Bracket a) A_Quotients.Exponential A_Quotients.Rounded) in
-      let f := at_symbols f O env in
+      let f := at_symbols f env in
       eval cbv beta in f
-  end end end.
+  end end.
+
+(** What a claim about a limit supposes of large values, from which nothing follows about others. *)
+Definition Later (P : Prop) := True.
+Definition later P : Later P := I.
 
 (** What is said of a formula: its sign; or more. *)
 Ltac sign T env :=
   let of x k := (let f := formula x env in constr:((f, k))) in
   lazymatch T with
-  | 0 < ?x => of x Positive
-  | 0 <= ?x => of x NonNegative
-  | ?x = 0 => of x Zero
-  | ?x <= 0 => of x NonPositive
-  | ?x < 0 => of x Negative
-  | -1 <= ?x <= 1 => of x Unit
+  | 0 < ?x => of x Positive | 0 <= ?x => of x NonNegative | ?x = 0 => of x Zero
+  | ?x <= 0 => of x NonPositive | ?x < 0 => of x Negative | -1 <= ?x <= 1 => of x Unit
   end.
 Ltac said T env :=
   match T with
+  | Later ?T => let a := sign T env in constr:(A_Quotients.Later a)
   | ?S -> ?T => let a := sign S env in let s := said T env in constr:(A_Quotients.If a s)
   | _ => let a := sign T env in constr:(A_Quotients.Is a)
   | ?x = ?y => let f := formula x env in let g := formula y env in constr:(A_Quotients.Replaced f g)
+  | ?S /\ ?T => let s := said S env in let t := said T env in constr:(A_Quotients.Either s t)
   end.
-Ltac goals T env :=
+
+Lemma clamped x : -1 <= clamp x <= 1 /\ (-1 <= x <= 1 -> clamp x = x).
+Proof. unfold clamp, Rmax, Rmin. destruct (Rle_dec 1 x), (Rle_dec (-1) _); lra. Qed.
+
+(** A power of two. *)
+Definition is_power (x : R) : Prop := exists n : Z, x = powerRZ 2 n.
+
+Lemma power_positive x : is_power x -> 0 < x.
+Proof. intros [n ->]. apply powerRZ_lt. lra. Qed.
+
+(** What is known of numbers from the start, and what becomes of them. *)
+Ltac kind v :=
+  match v with
+  | exp _ => Positive | Rabs _ => NonNegative | clamp _ => Unit
+  | _ => match goal with P : is_power v |- _ => Positive end
+  | _ => Any
+  end.
+Ltac way v x env :=
+  match v with
+  | x => constr:(A_Quotients.Plain A_Powers.Growing)
+  | exp ?a => lazymatch a with context [x] => let f := formula a env in constr:(A_Quotients.Power f) end
+  | context [x] => constr:(A_Quotients.Plain A_Powers.Other)
+  | _ => constr:(A_Quotients.Plain A_Powers.Fixed)
+  end.
+Ltac atoms l x env :=
+  lazymatch l with
+  | [] => constr:(@nil (kind * A_Quotients.way))
+  | ?v :: ?l => let k := kind v in let w := way v x env in let r := atoms l x env in constr:((k, w) :: r)
+  end.
+Ltac known_from_start :=
+  repeat (apply Forall2_cons;
+    [first [exact I | exact (proj1 (clamped _)) | exact (exp_pos _) | exact (Rabs_pos _) | apply power_positive; assumption] | ]);
+  exact (Forall2_nil of_kind).
+
+(** Passes what is said, and its proof, to a tactic. *)
+Ltac given T p env all proof tac :=
   lazymatch T with
-  | True => constr:(@nil (A_Quotients.formula * kind))
-  | ?S /\ ?T => let a := sign S env in let l := goals T env in constr:(a :: l)
+  | prod ?T ?S => let s := said S env in given T constr:(fst p) env constr:(s :: all) constr:(conj (snd p) proof) tac
+  | _ => tac all proof
   end.
 
-(** Passes steps to a tactic, and proofs of those that are said. *)
-Ltac steps given env all proof tac :=
-  lazymatch given with
-  | tt => tac all proof
-  | (?given, ?H) =>
-      lazymatch type of H with
-      | A_Quotients.step => steps given env constr:(H :: all) proof tac
-      | ?T => let s := said T env in steps given env constr:(A_Quotients.Given s :: all) constr:(conj H proof) tac
-      end
-  end.
-
-Lemma within x b : 0 <= b - x /\ 0 <= b + x /\ True -> Rabs x <= b.
+Lemma within x b : 0 <= b - x /\ 0 <= b + x -> Rabs x <= b.
 Proof. intros. apply Rabs_le. lra. Qed.
 
 Lemma not_zero x : x * / x - 1 = 0 -> x <> 0.
 Proof. intros E ->. lra. Qed.
 
-(** What is known of numbers from the start. *)
-Ltac known_from_start := repeat (apply Forall2_cons; [first [exact I | assumption] | ]); exact (Forall2_nil of_kind).
-
-(** By some steps, in numbers [env] of kinds [atoms]. *)
-Ltac shown env atoms given :=
+(** By a proof, in numbers [env], from what is given; both may depend on the variable of a limit. *)
+Ltac shown env all proof :=
   lazymatch goal with
   | |- Rabs _ <= _ => apply within
-  | |- _ <> 0 => apply not_zero, (@proj1 _ True)
-  | |- _ = 0 => apply (@proj1 _ True)
-  | |- _ = _ => apply Rminus_diag_uniq, (@proj1 _ True)
-  | |- _ => apply (@proj1 _ True)
+  | |- _ <> 0 => apply not_zero | |- _ = 0 => idtac | |- _ = _ => apply Rminus_diag_uniq | |- _ => idtac
   end;
-  lazymatch goal with
-  | |- ?T =>
-      let g := goals T env in
-      let fl := rounding in
-      steps given env constr:(@nil A_Quotients.step) I
-        ltac:(fun l p => refine (A_Quotients.shows_right fl env atoms _ l g p _));
-      [known_from_start | vm_cast_no_check (eq_refl true)]
-  end.
+  let G := fresh in let x := fresh in
+  pose proof (fun x : R => (eq_refl (env x), all x)) as G;
+  autounfold with functions in G; cbv [Rminus Rdiv pow fold_right] in G;
+  pose proof 0 as x;
+  let T := type of (G x) in
+  lazymatch T with
+  | prod (?e = _) ?T =>
+      let fl := rounding in let l := numbered e O in let a := atoms e x l in let k := eval cbv [map fst] in (map fst a) in
+      let w := eval cbv [map snd] in (map snd a) in
+      lazymatch eval pattern x in e with
+      | ?env _ =>
+          given T constr:(snd (G x)) l constr:(@nil A_Quotients.saying) I ltac:(fun s p =>
+            lazymatch eval pattern x in p with
+            | ?p _ =>
+                lazymatch goal with
+                | |- is_lim ?F p_infty (Finite ?Y) =>
+                    let F := eval cbv beta in (F x) in let f := formula F l in let y := formula Y l in
+                    refine (A_Quotients.all_right fl env k w s _ p _ (A_Quotients.Tends f y) proof _ Y (fun _ => eq_refl))
+                | |- ?T =>
+                    let g := said T l in
+                    refine (match A_Quotients.said_right fl env k w s _ p _ proof g _ with ex_intro _ t => t end)
+                end
+            end)
+      end
+  end;
+  [intro; known_from_start | repeat (split; [intro; reflexivity || exact I | ]); exact I | vm_cast_no_check (eq_refl true)].
 
 (** What remains of a derivative. *)
-Ltac derived env atoms given :=
-  lazymatch goal with
-  | |- True => exact I
-  | |- _ /\ _ => split; derived env atoms given
-  | |- _ => shown env atoms given
-  end.
+Ltac derived env all proof := repeat apply conj; try exact I; shown env all proof.
 
-(** ** Names
+(** ** Laws *)
+(** What lies between two values, by something that lies between -1 and 1. *)
+Definition parameter (a b x : R) : R := (2 * x - a - b) / (b - a).
 
-    What lies between two values, by something that lies between -1 and 1. *)
 Lemma between a b x :
-  0 <= (b - x) * (x - a) -> exists t, -1 <= t <= 1 /\ x = (a + b) / 2 + (b - a) / 2 * t.
+  0 <= (b - x) * (x - a) -> x = (a + b) / 2 + (b - a) / 2 * clamp (parameter a b x).
 Proof.
-  intro H. destruct (Req_dec a b) as [<- | D].
-  - exists 0. split; [lra | nra].
-  - exists ((2 * x - a - b) / (b - a)). split; [ | field; lra].
-    enough (0 <= 1 - (2 * x - a - b) / (b - a) * ((2 * x - a - b) / (b - a))) by nra.
-    replace (1 - _) with (4 * ((b - x) * (x - a)) / ((b - a) * (b - a))) by (field; lra).
-    apply Rdiv_le_0_compat; [lra | ]. apply Rsqr_pos_lt. lra.
+  intro H. unfold parameter. destruct (Req_dec a b) as [<- | D]; [nra | ]. rewrite (proj2 (clamped _)); [field; lra | ].
+  enough (0 <= 1 - (2 * x - a - b) / (b - a) * ((2 * x - a - b) / (b - a))) by nra.
+  replace (1 - _) with (4 * ((b - x) * (x - a)) / ((b - a) * (b - a))) by (field; lra).
+  apply Rdiv_le_0_compat; [lra | ]. apply Rsqr_pos_lt. lra.
 Qed.
 
 Lemma near a m x :
-  Rabs (x - a) <= m -> exists t, -1 <= t <= 1 /\ x = (a - m + (a + m)) / 2 + (a + m - (a - m)) / 2 * t.
+  Rabs (x - a) <= m ->
+  x = (a - m + (a + m)) / 2 + (a + m - (a - m)) / 2 * clamp (parameter (a - m) (a + m) x).
 Proof. intro H. apply Rabs_le_between in H. apply between. nra. Qed.
 
-(** An absolute value, and a factor. *)
-Lemma absolute x : exists s t, 0 <= s /\ -1 <= t <= 1 /\ Rmin (- x) x = - s /\ x - s * t = 0.
+(** An absolute value, and its factor. *)
+Lemma absolute x : Rmin (- x) x = - Rabs x.
+Proof. unfold Rmin, Rabs. destruct (Rle_dec (- x) x), (Rcase_abs x); lra. Qed.
+
+Definition factor (x : R) : R := x / Rabs x.
+
+Lemma own_factor x : x - Rabs x * clamp (factor x) = 0.
 Proof.
-  destruct (Rle_dec 0 x); [exists x, 1 | exists (- x), (-1)]; repeat split; try lra;
-    [rewrite Rmin_left | rewrite Rmin_right]; lra.
+  unfold factor. destruct (Req_dec x 0) as [-> | N]; [rewrite Rabs_R0; ring | ].
+  pose proof (Rabs_no_R0 x N) as A. rewrite (proj2 (clamped _)); [field; exact A | ].
+  apply Rabs_le_between. unfold Rdiv. rewrite Rabs_mult, Rabs_inv, Rabs_Rabsolu. right. field. exact A.
 Qed.
 
-Lemma own_size x s : Rmin (- x) x = - s -> 0 <= x -> s - x = 0.
-Proof. intros S P. rewrite Rmin_left in S; lra. Qed.
-
-Lemma negated_size x s : Rmin (- x) x = - s -> x <= 0 -> s + x = 0.
-Proof. intros S P. rewrite Rmin_right in S; lra. Qed.
-
-Lemma exponential a : exists y, 0 < y /\ exp a = y.
-Proof. exists (exp a). split; [apply exp_pos | reflexivity]. Qed.
-
-Lemma same_exponential a b z : exp b = z -> a - b = 0 -> exp a = z.
-Proof. intros <- E. f_equal. lra. Qed.
+Lemma own_size x : (0 <= x -> Rabs x - x = 0) /\ (x <= 0 -> Rabs x + x = 0).
+Proof. split; intro; [rewrite Rabs_pos_eq | rewrite Rabs_left1]; lra. Qed.
 
 (** Two products of exponentials whose exponents have the same sum. *)
-Lemma both a b y z : exp a = y -> exp b = z -> exp (a + b) = y * z.
-Proof. intros <- <-. apply exp_plus. Qed.
-
-Lemma same_exponents a b y z : exp a = y -> exp b = z -> a - b = 0 -> y - z = 0.
-Proof. intros <- <- E. replace b with a by lra. ring. Qed.
-
-(** Two cases. *)
-Lemma either d : {0 < d} + {d <= 0}.
-Proof. destruct (Rlt_le_dec 0 d); [left | right]; assumption. Qed.
+Lemma same_exponents l m :
+  fold_right Rplus 0 l - fold_right Rplus 0 m = 0 ->
+  fold_right (fun a p => exp a * p) 1 l - fold_right (fun a p => exp a * p) 1 m = 0.
+Proof.
+  assert (S : forall w, fold_right (fun a p => exp a * p) 1 w = exp (fold_right Rplus 0 w)).
+  { induction w as [ | a w I]; simpl; [symmetry; apply exp_0 | rewrite I, exp_plus; reflexivity]. }
+  rewrite !S. intro E. replace (fold_right Rplus 0 m) with (fold_right Rplus 0 l) by lra. ring.
+Qed.
 
 (** The exponential function lies above its tangent at 0, and below a fraction with a pole at 2. *)
-Lemma above_tangent a y : exp a = y -> 0 <= y - (1 + a).
-Proof. intros <-. destruct (Req_dec a 0) as [-> | N]; [rewrite exp_0 | pose proof (exp_ineq1 a N)]; lra. Qed.
-
-Lemma above_tangent_right a y : exp a = y -> 0 < a -> 0 < y - (1 + a).
-Proof. intros <- A. assert (a <> 0) as N by lra. pose proof (exp_ineq1 a N). lra. Qed.
-
-Lemma above_tangent_left a y : exp a = y -> a < 0 -> 0 < y - (1 + a).
-Proof. intros <- A. assert (a <> 0) as N by lra. pose proof (exp_ineq1 a N). lra. Qed.
-
-Lemma below_pole a y : exp a = y -> 0 < a -> 0 < 2 + a - (2 - a) * y.
+Lemma above_tangent a :
+  (0 < a -> 0 < exp a - (1 + a)) /\ (a < 0 -> 0 < exp a - (1 + a)) /\ 0 <= exp a - (1 + a).
 Proof.
-  intros <- A. destruct (MVT_cor2 (fun x => 2 + x - (2 - x) * exp x) (fun x => 1 - (1 - x) * exp x) 0 a A) as (z & E & Z).
-  { intros z _. apply is_derive_Reals. auto_derive; [exact I | ring]. }
-  rewrite exp_0 in E. assert (0 < 1 - (1 - z) * exp z); [ | nra].
-  assert (- z <> 0) as N by lra. pose proof (exp_ineq1 (- z) N) as T. pose proof (exp_pos z) as P.
-  rewrite exp_Ropp in T. apply (Rmult_lt_compat_r (exp z) _ _ P) in T. rewrite Rinv_l in T; lra.
+  assert (N : a <> 0 -> 0 < exp a - (1 + a)) by (intro N; pose proof (exp_ineq1 a N); lra).
+  repeat split; [intro; apply N; lra | intro; apply N; lra | ].
+  destruct (Req_dec a 0) as [-> | D]; [rewrite exp_0; lra | left; exact (N D)].
 Qed.
 
-Lemma below_pole_or_at_0 a y : exp a = y -> 0 <= a -> 0 <= 2 + a - (2 - a) * y.
+Lemma below_pole a :
+  (0 < a -> 0 < 2 + a - (2 - a) * exp a) /\ (0 <= a -> 0 <= 2 + a - (2 - a) * exp a).
 Proof.
-  intros E [A | <-]; [left; exact (below_pole a y E A) | ]. rewrite exp_0 in E. lra.
-Qed.
-
-(** ** Limits
-
-    What becomes of a function for great [x], beyond some [m], is what becomes of it for small [1/x]. *)
-Lemma limit_at_infinity (m : R) (f g : R -> R) (y : R) :
-  (forall x, m < x -> f x = g (/ x)) -> ex_derive g 0 -> g 0 = y -> is_lim f p_infty y.
-Proof.
-  intros E D <-.
-  apply is_lim_ext_loc with (fun x => g (/ x)).
-  { exists m. intros x X. symmetry. apply E, X. }
-  apply is_lim_comp with 0.
-  - apply is_lim_continuity, continuity_pt_filterlim, (ex_derive_continuous g 0 D).
-  - replace (Finite 0) with (Rbar_inv p_infty) by reflexivity.
-    apply is_lim_inv; [apply is_lim_id | discriminate].
-  - exists 0. intros x X E0. injection E0 as E1. apply (Rinv_neq_0_compat x); lra.
-Qed.
-
-(** An exponential with a negative rate vanishes. *)
-Lemma exp_vanishes (r : R) : r < 0 -> is_lim (fun x => exp (r * x)) p_infty 0.
-Proof.
-  intro P. apply is_lim_comp with m_infty.
-  - apply is_lim_exp_m.
-  - replace m_infty with (Rbar_mult r p_infty).
-    + apply is_lim_scal_l, is_lim_id.
-    + simpl. unfold Rbar_mult'. destruct (Rle_dec 0 r); [exfalso; lra | reflexivity].
-  - exists 0. intros x _. discriminate.
-Qed.
-
-Lemma limit_with_decay (m : R) (f g : R -> R) (b r y : R) :
-  (forall x, m < x -> f x = g (/ x) + b * exp (r * x)) -> r < 0 -> ex_derive g 0 -> g 0 = y ->
-  is_lim f p_infty y.
-Proof.
-  intros E P D Y.
-  apply is_lim_ext_loc with (fun x => g (/ x) + b * exp (r * x)).
-  { exists m. intros x X. symmetry. apply E, X. }
-  replace (Finite y) with (Finite (y + b * 0)) by (f_equal; ring).
-  apply is_lim_plus'.
-  - apply (limit_at_infinity m _ g); auto.
-  - apply (is_lim_scal_l (fun x => exp (r * x)) b p_infty 0), exp_vanishes, P.
+  assert (S : 0 < a -> 0 < 2 + a - (2 - a) * exp a).
+  { intro A. destruct (MVT_cor2 (fun x => 2 + x - (2 - x) * exp x) (fun x => 1 - (1 - x) * exp x) 0 a A) as (z & E & Z).
+    { intros z _. apply is_derive_Reals. auto_derive; [exact I | ring]. }
+    rewrite exp_0 in E. assert (0 < 1 - (1 - z) * exp z); [ | nra].
+    assert (- z <> 0) as N by lra. pose proof (exp_ineq1 (- z) N) as T. pose proof (exp_pos z) as P.
+    rewrite exp_Ropp in T. apply (Rmult_lt_compat_r (exp z) _ _ P) in T. rewrite Rinv_l in T; lra. }
+  split; [exact S | ]. intros [A | <-]; [left; exact (S A) | rewrite exp_0; lra].
 Qed.
 
 (** A continuous function of a power that vanishes. *)
 Lemma limit_of_powers (f : R -> R) (rho y : R) :
   0 < 1 - rho * rho -> ex_derive f 0 -> f 0 = y -> is_lim_seq (fun n => f (rho ^ n)) y.
 Proof.
-  intros P D <-.
-  apply (is_lim_seq_continuous f (fun n => rho ^ n) 0).
+  intros P D <-. apply (is_lim_seq_continuous f (fun n => rho ^ n) 0).
   - apply continuity_pt_filterlim. apply (ex_derive_continuous f 0 D).
   - apply is_lim_seq_geom. rewrite <- Rabs_R1. apply Rsqr_lt_abs_0. unfold Rsqr. lra.
 Qed.
+
+(** ** Induction *)
+(** A conjunction, or an equation of pairs, component by component; each by a lemma. *)
+Ltac components := repeat first [apply conj | apply (f_equal2 pair)].
+Ltac by_lemma p := first [exact p | symmetry; exact p].

@@ -1,10 +1,9 @@
 //! Theorems and lemmas of a claim, with their proofs.
 
-use super::expr::Expr;
-use super::lemma::{Lemma, Result, divisors, format_proposition, none_is_zero};
+use super::identifier;
+use super::lemma::{Lemma, Result, divisors, format_proposition};
 use super::print::{Printer, ascii, free};
-use super::script::Script;
-use super::{identifier, theorem_name};
+use super::script::program;
 use crate::formula::claim::POWER;
 use crate::formula::statement::{Goal, Role, Sequence};
 use crate::formula::{Hypothesis, Proposition, Statement};
@@ -19,11 +18,6 @@ pub(super) struct Claim<'a> {
 }
 
 impl<'a> Claim<'a> {
-    pub(super) fn new(statement: &'a Statement, printer: Printer<'a>) -> Self {
-        let name = theorem_name(statement.equation(), statement.name());
-        Claim { printer, statement, name }
-    }
-
     /// Returns its theorem and the lemmas before it.
     pub(super) fn text(&self) -> Result<String> {
         let symbols = self.printer.registry.symbols_of(self.statement.trees());
@@ -38,11 +32,11 @@ impl<'a> Claim<'a> {
                 Some(limit) => self.vanishing(sequence, limit)?,
                 None => self.induction(sequence)?,
             },
-            (None, [], [goal, rates @ ..]) => match goal.proposition {
-                Proposition::Limit(_, by, _) => self.limit(by, goal, rates)?,
-                _ if rates.is_empty() => self.with_proof("Theorem", &self.lemma(goal), goal)?,
-                _ => return Err("several goals".into()),
-            },
+            (None, [], [goal, rates @ ..]) => {
+                let mut theorem = self.lemma(goal);
+                theorem.name.clone_from(&self.name);
+                self.lemmas(rates)? + &self.with_proof("Theorem", theorem, goal)?
+            }
             (None, all, [parts @ .., goal]) if parts.len() == all.len() => self.computed(parts, goal)?,
             _ => return Err("a computed quantity among several goals".into()),
         };
@@ -72,11 +66,21 @@ impl<'a> Claim<'a> {
         self.new_lemma(&format!("{} {number}", goal.part), hypotheses, goal.proposition.trees())
     }
 
-    /// Returns a goal with its proof.
-    pub(super) fn with_proof(&self, keyword: &str, lemma: &Lemma, goal: &Goal) -> Result<String> {
-        let mut script = Script::of(lemma);
-        script.goal(lemma, &goal.proposition)?;
-        Ok(lemma.text(keyword, &format_proposition(&goal.proposition, self.printer), script))
+    /// Returns goals as lemmas.
+    pub(super) fn lemmas(&self, goals: &[Goal]) -> Result<String> {
+        goals.iter().map(|goal| self.with_proof("Lemma", self.lemma(goal), goal)).collect()
+    }
+
+    /// Returns a goal with its proof. The variable of a limit is bound there.
+    fn with_proof(&self, keyword: &str, lemma: Lemma<'a>, goal: &Goal) -> Result<String> {
+        let hypotheses = lemma.hypotheses.clone();
+        let (lemma, tactic) = match goal.proposition {
+            Proposition::Limit(_, by, _) => (lemma.without(by), "shown"),
+            Proposition::Derivative(..) => (lemma, "auto_derive; derived"),
+            _ => (lemma, "shown"),
+        };
+        let proof = format!("  {tactic} {}.\n", program(&lemma, &hypotheses, &goal.proposition)?);
+        Ok(lemma.text(keyword, &format_proposition(&goal.proposition, self.printer), &proof))
     }
 
     /// States that no divisor is 0; empty without divisors.
@@ -95,22 +99,19 @@ impl<'a> Claim<'a> {
             self.statement.all_hypotheses().collect()
         };
         let lemma = self.new_lemma("defined", hypotheses, &divisors);
-        let mut script = Script::of(&lemma);
-        script.line("repeat apply conj.");
+        let (mut proof, mut all) = ("  repeat apply conj.\n".to_string(), Vec::new());
         for divisor in &divisors {
             let is_one = Proposition::Equal(divisor * (Tree::from(1) / divisor), Tree::from(1));
-            script.block("-", |script| script.goal(&lemma, &is_one))?;
+            proof += &format!("  - shown {}.\n", program(&lemma, &lemma.hypotheses, &is_one)?);
+            all.push(format!("{} <> 0", self.printer.plain().expr(divisor)));
         }
-        Ok(lemma.text("Lemma", &none_is_zero(&divisors, self.printer), script))
+        Ok(lemma.text("Lemma", &all.join(" /\\\n  "), &proof))
     }
 
     /// States the claim for the computed quantities, which lie in their intervals.
     fn computed(&self, intervals: &[Goal], goal: &Goal) -> Result<String> {
-        let lemmas: Vec<_> = intervals.iter().map(|interval| self.lemma(interval)).collect();
-        let mut main_lemma = self.lemma(goal);
-        main_lemma.name += "_nearby";
-        let proofs = lemmas.iter().zip(intervals).map(|(lemma, goal)| self.with_proof("Lemma", lemma, goal));
-        let text = proofs.collect::<Result<String>>()? + &self.with_proof("Lemma", &main_lemma, goal)?;
+        let mut nearby = self.lemma(goal);
+        nearby.name += "_nearby";
         let Proposition::Within(of, bound) = &goal.proposition else {
             return Err("a computed quantity in a claim other than a bound".into());
         };
@@ -119,26 +120,21 @@ impl<'a> Claim<'a> {
             last_first.fold(tree.clone(), |tree, c| tree.substitute(&[(c.symbol, c.formula.clone())]))
         });
         let theorem = self.new_lemma("", self.statement.hypotheses_for(Role::InvariantBase), [&of, &bound]);
-        let computing = self.computing(lemmas.iter(), |hypothesis| theorem.label(hypothesis));
-        let applied = self.applied(&main_lemma, |hypothesis| theorem.label(hypothesis));
-        let mut script = Script::new();
-        script.line(&theorem.intros());
-        script.line(&format!("exact ({computing}{applied})."));
+        let lets = self.lets(|h| theorem.label(h));
+        let proof = format!("  exact ({lets}{}).\n", self.applied(&nearby, |h| theorem.label(h)));
+        let text = self.lemmas(intervals)? + &self.with_proof("Lemma", nearby, goal)?;
         let conclusion = format_proposition(&Proposition::Within(of, bound), self.printer);
-        Ok(text + &theorem.text("Theorem", &conclusion, script))
+        Ok(text + &theorem.text("Theorem", &conclusion, &proof))
     }
 
     /// Returns `let u := FORMULA in let N1 := INTERVAL in`: the computed quantities, with the lemmas that
     /// place them in their intervals.
-    pub(super) fn computing<'l>(
-        &self,
-        lemmas: impl Iterator<Item = &'l Lemma<'l>>,
-        label: impl Fn(&Hypothesis) -> Option<String>,
-    ) -> String {
+    pub(super) fn lets(&self, label: impl Fn(&Hypothesis) -> Option<String> + Copy) -> String {
+        let lemmas = self.statement.goals().iter().filter(|goal| matches!(goal.role, Role::Computed(_)));
         let all = self.statement.computed().iter().zip(lemmas).zip(1..);
-        let lets = all.map(|((computed, lemma), i)| {
+        let lets = all.map(|((computed, goal), i)| {
             let (name, by) = (ascii(computed.symbol), self.printer.expr(&computed.formula));
-            format!("let {name} := {by} in let N{i} := {} in ", self.applied(lemma, &label))
+            format!("let {name} := {by} in let N{i} := {} in ", self.applied(&self.lemma(goal), label))
         });
         lets.collect()
     }
@@ -147,29 +143,9 @@ impl<'a> Claim<'a> {
     pub(super) fn applied(&self, lemma: &Lemma, label: impl Fn(&Hypothesis) -> Option<String>) -> String {
         lemma.applied(|hypothesis| {
             let mut intervals = self.statement.computed().iter().map(|computed| &computed.hypothesis);
-            match intervals.position(|interval| interval == hypothesis) {
-                Some(i) => format!("N{}", i + 1),
-                None => label(hypothesis).unwrap_or_default(),
-            }
+            let interval = intervals.position(|interval| interval == hypothesis);
+            interval.map(|i| format!("N{}", i + 1)).or_else(|| label(hypothesis))
         })
-    }
-
-    /// States a limit, and its rate in lemmas.
-    fn limit(&self, by: &'static str, goal: &Goal, rates: &[Goal]) -> Result<String> {
-        let rates = rates.iter().map(|rate| match &rate.proposition {
-            limit @ Proposition::Limit(..) => self.limit_with_proof("Lemma", rate.part, by, limit),
-            _ => self.with_proof("Lemma", &self.lemma(rate), rate),
-        });
-        Ok(rates.collect::<Result<String>>()?
-            + &self.limit_with_proof("Theorem", "", by, &goal.proposition)?)
-    }
-
-    fn limit_with_proof(&self, keyword: &str, name: &str, by: &str, limit: &Proposition) -> Result<String> {
-        let hypotheses = self.statement.hypotheses_for(Role::Claim);
-        let lemma = self.new_lemma(name, hypotheses.clone(), limit.trees()).without(by);
-        let mut script = Script::of(&lemma);
-        script.limit(&lemma, &hypotheses, limit)?;
-        Ok(lemma.text(keyword, &format_proposition(limit, self.printer), script))
     }
 
     /// States the limit of a formula of powers of a ratio less than 1 in absolute value.
@@ -177,27 +153,17 @@ impl<'a> Claim<'a> {
         let goals @ [_, at_zero] = self.statement.goals() else {
             return Err("a limit of several components".into());
         };
-        let [small, limit] = [0, 1].map(|i| self.lemma(&goals[i]));
-        let text =
-            self.with_proof("Lemma", &small, &goals[0])? + &self.with_proof("Lemma", &limit, at_zero)?;
         let hypotheses = self.statement.hypotheses_for(Role::Claim);
         let theorem = self.new_lemma("", hypotheses, [ratio, &member[0], to]).without(POWER);
+        let [small, limit] = [0, 1].map(|i| self.lemma(&goals[i]).applied(|h| theorem.label(h)));
         let [ratio, of, to] = [ratio, &member[0], to].map(|tree| self.printer.expr(tree));
-        let (name, power) = (ascii(POWER), Expr::name(format!("({} ^ n)", ratio.base())));
-        let [small_proof, limit_proof] = [&small, &limit].map(|lemma| {
-            format!("- exact ({}).", self.applied(lemma, |hypothesis| theorem.label(hypothesis)))
-        });
-        let mut script = Script::new();
-        script.line(&theorem.intros());
-        script.line(&format!("apply (limit_of_powers (fun {name} => {of}) {}).", ratio.argument()));
-        script.line(&small_proof);
-        // Continuity there has the same hypotheses.
-        script.block("-", |script| {
-            script.line("functions.");
-            script.continuity(&limit, &at_zero.proposition)
-        })?;
-        script.line(&limit_proof);
-        let conclusion = format!("is_lim_seq (fun n => {}) {}", of.substitute(&name, &power), to.argument());
-        Ok(text + &theorem.text("Theorem", &conclusion, script))
+        let (name, power, base) = (ascii(POWER), ratio.power(), ratio.argument());
+        let continuous = program(&theorem, &theorem.hypotheses, &at_zero.proposition)?;
+        let proof = format!(
+            "  apply (limit_of_powers (fun {name} => {of}) {base}).\n  - exact ({small}).\n  \
+             - functions. auto_derive; derived {continuous}.\n  - exact ({limit}).\n"
+        );
+        let conclusion = format!("is_lim_seq (fun n => let {name} := {power} in {of}) {}", to.argument());
+        Ok(self.lemmas(goals)? + &theorem.text("Theorem", &conclusion, &proof))
     }
 }
