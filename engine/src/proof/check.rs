@@ -248,7 +248,7 @@ fn check_node(problem: &Problem, cases: &[(Polynomial, Sign)], node: &Node) -> C
     match node {
         Node::Cases(..) if cases.len() >= MAX_NESTING => Err(Refusal::TooLarge),
         Node::Cases(on, both) => {
-            let mut both = both.iter().zip([Sign::Positive, Sign::NonPositive]);
+            let mut both = both.iter().zip([Sign::POSITIVE, Sign::NON_POSITIVE]);
             both.try_for_each(|(node, sign)| {
                 check_node(problem, &[cases, &[(on.clone(), sign)]].concat(), node)
             })

@@ -77,7 +77,7 @@ mod tests {
         let expected = Polynomial::new(vec![(powers, 2), ([0; MAX_VARIABLES], -1)]).unwrap();
         let powers = vec![(3, 2), (0, 1)];
         assert_eq!(polynomial(&[("2".into(), powers), ("-1".into(), vec![])]), Ok(expected));
-        assert_eq!(polynomial(&[]), Ok(Polynomial::zero()));
+        assert_eq!(polynomial(&[]), Ok(Polynomial::constant(0)));
     }
 
     #[test]

@@ -129,7 +129,7 @@ fn both_cases(search: &Search, cases: &[Case], at: usize, value: &Ratio) -> Resu
     let original = known.original(&known.sign_numerator(value).into());
     let [on] = integral([original.num()]);
     let on = polynomial(&on).ok_or("the quantity of a case")?;
-    let nodes = [Sign::Positive, Sign::NonPositive].into_iter().map(|sign| {
+    let nodes = [Sign::POSITIVE, Sign::NON_POSITIVE].into_iter().map(|sign| {
         let case = Case { at, on: on.clone(), sign };
         certify(search.problem(), &[cases, &[case]].concat())
     });

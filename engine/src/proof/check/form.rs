@@ -40,9 +40,10 @@ impl State<'_> {
 
     /// Returns the sign of a form, term by term, for the signs of its variables.
     fn sign_of_form(&self, form: &Polynomial, signs: &[Sign]) -> Checked<Sign> {
-        let bounds = [Sign::NonNegative, Sign::NonPositive].map(|side| self.sign_by_bound(form, signs, side));
+        let bounds =
+            [Sign::NON_NEGATIVE, Sign::NON_POSITIVE].map(|side| self.sign_by_bound(form, signs, side));
         let [above, below] = bounds;
-        [above?, below?].into_iter().find(|sign| *sign != Sign::Any).ok_or(Refusal::Form)
+        [above?, below?].into_iter().find(|sign| *sign != Sign::ANY).ok_or(Refusal::Form)
     }
 
     /// Returns the sign of a form f that follows from that of a form g, where f − g has the sign `side`.
@@ -50,7 +51,7 @@ impl State<'_> {
     /// In g there are no factors between −1 and 1. A term with such factors is at least, or for f ≤ g at most, the
     /// smaller or larger one of c and −c, where c is the term without them; if they are all squares, of c and 0.
     fn sign_by_bound(&self, form: &Polynomial, signs: &[Sign], side: Sign) -> Checked<Sign> {
-        let (mut bound, mut difference) = (Vec::new(), Sign::Zero);
+        let (mut bound, mut difference) = (Vec::new(), Sign::ZERO);
         for (powers, number) in form.terms() {
             let is_factor = |x: &usize| powers[*x] > 0 && self.problem.table.is_unit(*x);
             let (mut others, mut is_square) = (*powers, true);
@@ -59,8 +60,8 @@ impl State<'_> {
                 is_square &= std::mem::take(&mut others[*x]) % 2 == 0;
             }
             match sign_of_term(&others, *number, signs) {
-                Sign::Zero => continue,
-                Sign::Any => return Ok(Sign::Any),
+                Sign::ZERO => continue,
+                Sign::ANY => return Ok(Sign::ANY),
                 _ if factors.is_empty() => bound.push((others, *number)),
                 sign => {
                     difference = side;
@@ -80,12 +81,12 @@ impl State<'_> {
 
 /// Returns the sign of a term for the signs of its variables.
 fn sign_of_term(powers: &Powers, number: i128, signs: &[Sign]) -> Sign {
-    let number = if number < 0 { Sign::Negative } else { Sign::Positive };
+    let number = if number < 0 { Sign::NEGATIVE } else { Sign::POSITIVE };
     let factors = powers.iter().zip(signs).filter(|(n, _)| **n > 0);
-    let signs = factors.map(|(n, sign)| match (n % 2, sign) {
-        (1, _) => *sign,
-        (_, Sign::Any) => Sign::NonNegative,
-        _ => sign.times(*sign),
+    let signs = factors.map(|(n, sign)| match (n % 2, *sign) {
+        (1, sign) => sign,
+        (_, Sign::ANY) => Sign::NON_NEGATIVE,
+        (_, sign) => sign.times(sign),
     });
     signs.fold(number, Sign::times)
 }

@@ -64,7 +64,7 @@ impl State<'_> {
         let hypothesis = self.problem.hypotheses[i];
         let value = self.value(self.problem.values[i])?;
         let is_inequality = hypothesis.interval().is_none() && hypothesis.relation != Relation::Zero;
-        if is_inequality && self.excess(&value)?.1 == Sign::Positive { Ok(()) } else { Err(Refusal::Limit) }
+        if is_inequality && self.excess(&value)?.1 == Sign::POSITIVE { Ok(()) } else { Err(Refusal::Limit) }
     }
 
     /// Returns the limit of a quotient: 0 if the denominator has the higher degree, and the quotient of the
@@ -78,7 +78,7 @@ impl State<'_> {
         let (excess, mut coefficients) = self.leading(&Quotient { num, den: of.den.clone() })?;
         let den = self.strict(&coefficients.split_off(1))?;
         match excess.cmp(&0) {
-            Ordering::Less => Ok(Polynomial::zero().into()),
+            Ordering::Less => Ok(Polynomial::constant(0).into()),
             Ordering::Equal => Ok(Quotient::new(coefficients.swap_remove(0), den)),
             Ordering::Greater => Err(Refusal::Limit),
         }
@@ -103,7 +103,7 @@ impl State<'_> {
             if self.problem.varies(y) {
                 let exponent = self.exponent(y).map_err(|_| Refusal::Limit)?;
                 let (excess, sign) = self.excess(&exponent)?;
-                if excess <= 0 || sign != Sign::Negative {
+                if excess <= 0 || sign != Sign::NEGATIVE {
                     return Err(Refusal::Limit);
                 }
                 rest = rest.coefficient(y, 0);

@@ -31,11 +31,6 @@ impl Polynomial {
         Ok(Polynomial(sums))
     }
 
-    /// Returns the zero polynomial.
-    pub fn zero() -> Self {
-        Polynomial::default()
-    }
-
     /// Returns the constant `n`.
     pub fn constant(n: i128) -> Self {
         Polynomial((n != 0).then_some(([0; MAX_VARIABLES], n)).into_iter().collect())
@@ -92,11 +87,14 @@ impl Polynomial {
         let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
         for (a, p) in &short.0 {
             for (b, q) in &long.0 {
-                let mut powers = *a;
+                let (mut powers, mut largest) = (*a, 0);
+                // A loop without an exit is compiled to few instructions.
                 for (n, m) in powers.iter_mut().zip(b) {
-                    *n = n.checked_add(*m).ok_or(Refusal::TooLarge)?;
+                    *n = n.saturating_add(*m);
+                    largest = largest.max(*n);
                 }
-                terms.push((powers, p.checked_mul(*q).ok_or(Refusal::TooLarge)?));
+                let number = p.checked_mul(*q).filter(|_| largest < u8::MAX);
+                terms.push((powers, number.ok_or(Refusal::TooLarge)?));
             }
         }
         Polynomial::new(terms)

@@ -17,7 +17,8 @@ pub struct Quotient {
 /// The quantities of known sign, in the order in which they became known.
 #[derive(Clone, Debug)]
 pub struct Facts {
-    all: Vec<(Polynomial, Sign)>,
+    /// All facts.
+    pub all: Vec<(Polynomial, Sign)>,
     /// The effort that is left for arithmetic.
     pub effort: Effort,
 }
@@ -54,24 +55,9 @@ fn without(a: &[usize], b: &[usize]) -> Vec<usize> {
 }
 
 impl Facts {
-    /// Returns no facts.
-    pub fn new(effort: Effort) -> Self {
-        Facts { all: Vec::new(), effort }
-    }
-
-    /// Adds a fact.
-    pub fn add(&mut self, of: Polynomial, sign: Sign) {
-        self.all.push((of, sign));
-    }
-
     /// Returns a fact.
     pub fn get(&self, i: usize) -> Checked<&(Polynomial, Sign)> {
         self.all.get(i).ok_or(Refusal::Unknown)
-    }
-
-    /// Returns all facts in order.
-    pub fn iter(&self) -> impl DoubleEndedIterator<Item = &(Polynomial, Sign)> + ExactSizeIterator {
-        self.all.iter()
     }
 
     /// Returns `true` if the facts state that a quotient has a sign.
@@ -80,7 +66,7 @@ impl Facts {
         let states = |(known, known_sign): &(Polynomial, Sign)| {
             known_sign.times(sign_of_den).implies(sign) && *known == of.num
         };
-        (of.num.is_zero() && Sign::Zero.implies(sign)) || self.all.iter().any(states)
+        (of.num.is_zero() && Sign::ZERO.implies(sign)) || self.all.iter().any(states)
     }
 
     /// Returns the number of the first fact that a polynomial is positive, or negative.
@@ -97,7 +83,7 @@ impl Facts {
 
     /// Returns the sign of a product of facts.
     pub fn sign_of_product(&self, facts: &[usize]) -> Checked<Sign> {
-        facts.iter().try_fold(Sign::Positive, |sign, i| Ok(sign.times(self.get(*i)?.1)))
+        facts.iter().try_fold(Sign::POSITIVE, |sign, i| Ok(sign.times(self.get(*i)?.1)))
     }
 
     /// Returns a + n b.

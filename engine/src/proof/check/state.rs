@@ -30,19 +30,19 @@ pub struct State<'p> {
     /// The values of symbols in intervals.
     symbols: FxHashMap<&'static str, Quotient>,
     /// The values of formulas.
-    values: FxHashMap<usize, Quotient>,
+    pub values: FxHashMap<usize, Quotient>,
 }
 
 impl<'p> State<'p> {
     /// Returns the state at the beginning of a leaf under the assumptions of cases. Powers of two and exponentials are
     /// positive. In a limit, the assumptions must not depend on its variable.
     pub fn new(problem: &'p Problem, cases: &[(Polynomial, Sign)]) -> Checked<Self> {
-        let signs = (0..problem.table.atoms().len()).map(|x| problem.table.sign(x));
-        let facts = Facts::new(problem.effort.clone());
+        let signs = (0..problem.table.atoms.len()).map(|x| problem.table.sign(x));
+        let facts = Facts { all: Vec::new(), effort: problem.effort.clone() };
         let (assumed, divisors, symbols, values) = Default::default();
         let signs = signs.collect();
         let mut state = State { problem, facts, signs, assumed, divisors, symbols, values };
-        state.add_fact(Polynomial::constant(2), Sign::Positive)?;
+        state.add_fact(Polynomial::constant(2), Sign::POSITIVE)?;
         for (case, sign) in cases {
             state.add_fact(case.clone(), *sign)?;
             if !case.has_only(|x| !problem.varies(x)) {
@@ -57,7 +57,7 @@ impl<'p> State<'p> {
         match step {
             Step::Assume(i) => self.assume(*i),
             Step::Show(of, certificate) => self.add_fact(of.clone(), self.certify(of, certificate)?),
-            Step::Square(of) => self.add_fact(of.times(of, &self.facts.effort)?, Sign::NonNegative),
+            Step::Square(of) => self.add_fact(of.times(of, &self.facts.effort)?, Sign::NON_NEGATIVE),
             Step::Divisor(factors) if self.facts.sign_of_product(factors)?.is_strict() => {
                 self.divisors.push((self.facts.product(factors)?, factors.clone()));
                 Ok(())
@@ -80,7 +80,7 @@ impl<'p> State<'p> {
         {
             *known = sign;
         }
-        self.facts.add(of, sign);
+        self.facts.all.push((of, sign));
         Ok(())
     }
 
@@ -121,35 +121,36 @@ impl<'p> State<'p> {
 
     /// Returns the quantity of an instance of a law, with its sign.
     fn instance(&mut self, law: &Law) -> Checked<(Quotient, Sign)> {
-        use Sign::{Negative, NonNegative, NonPositive, Positive, Zero};
         Ok(match *law {
             Law::Exponents { ref left, ref right } => {
                 let ([sum, product], [other_sum, other]) = (self.product(left)?, self.product(right)?);
-                self.premise(&self.facts.sum(&sum, -1, &other_sum)?, [Zero])?;
-                (self.facts.sum(&product, -1, &other)?, Zero)
+                self.premise(&self.facts.sum(&sum, -1, &other_sum)?, [Sign::ZERO])?;
+                (self.facts.sum(&product, -1, &other)?, Sign::ZERO)
             }
             Law::AboveTangent(x) => {
                 let [exponent, power] = self.product(&[x])?;
                 let tangent = self.facts.sum(&Polynomial::constant(1).into(), 1, &exponent)?;
-                let is_strict = self.premise(&exponent, [Positive, Negative]).is_ok();
-                (self.facts.sum(&power, -1, &tangent)?, if is_strict { Positive } else { NonNegative })
+                let strict = self.premise(&exponent, [Sign::POSITIVE, Sign::NEGATIVE]);
+                (self.facts.sum(&power, -1, &tangent)?, strict.map_or(Sign::NON_NEGATIVE, |_| Sign::POSITIVE))
             }
             Law::BelowPole(x) => {
                 let [exponent, power] = self.product(&[x])?;
                 let two = Polynomial::constant(2).into();
                 let [above, below] = [1, -1].map(|n| self.facts.sum(&two, n, &exponent));
                 let product = below?.times(&power, &self.facts.effort)?;
-                (self.facts.sum(&above?, -1, &product)?, self.premise(&exponent, [Positive, NonNegative])?)
+                let sign = self.premise(&exponent, [Sign::POSITIVE, Sign::NON_NEGATIVE])?;
+                (self.facts.sum(&above?, -1, &product)?, sign)
             }
             Law::AbsoluteValue(of) => {
                 let (value, size) = (self.value(of)?, self.variable(Atom::Size(of))?);
                 let product = size.times(&self.variable(Atom::Factor(of))?, &self.facts.effort)?;
-                (self.facts.sum(&value, -1, &product.into())?, Zero)
+                (self.facts.sum(&value, -1, &product.into())?, Sign::ZERO)
             }
             Law::Signed(of) => {
                 let (value, size) = (self.value(of)?, self.variable(Atom::Size(of))?);
-                let n = if self.premise(&value, [NonNegative, NonPositive])? == NonNegative { -1 } else { 1 };
-                (self.facts.sum(&size.into(), n, &value)?, Zero)
+                let sign = self.premise(&value, [Sign::NON_NEGATIVE, Sign::NON_POSITIVE])?;
+                let n = if sign == Sign::NON_NEGATIVE { -1 } else { 1 };
+                (self.facts.sum(&size.into(), n, &value)?, Sign::ZERO)
             }
             Law::Order([a, b]) => {
                 let table = &self.problem.table;
@@ -157,7 +158,7 @@ impl<'p> State<'p> {
                     return Err(Refusal::Unknown);
                 };
                 let difference = self.sum(x, -1, y)?;
-                (self.sum(a, -1, b)?, self.premise(&difference, [NonNegative])?)
+                (self.sum(a, -1, b)?, self.premise(&difference, [Sign::NON_NEGATIVE])?)
             }
         })
     }
@@ -181,15 +182,10 @@ impl<'p> State<'p> {
 
     /// Returns the exponent of an exponential.
     pub fn exponent(&mut self, x: usize) -> Checked<Quotient> {
-        match self.problem.table.atoms().get(x) {
+        match self.problem.table.atoms.get(x) {
             Some(Atom::Exponential(of)) => self.value(*of),
             _ => Err(Refusal::Unknown),
         }
-    }
-
-    /// Returns `true` if the value of a formula is known.
-    pub fn has_value(&self, formula: usize) -> bool {
-        self.values.contains_key(&formula)
     }
 
     /// Returns the value of the formula with a number. No divisor in it is 0.
@@ -210,10 +206,7 @@ impl<'p> State<'p> {
                 None => self.variable(Atom::Own(name))?.into(),
             },
             Int(n) => Polynomial::constant(n.into()).into(),
-            Neg(a) => {
-                let a = self.value(a)?;
-                self.facts.sum(&Polynomial::zero().into(), -1, &a)?
-            }
+            Neg(a) => self.value(a)?.times(&Polynomial::constant(-1).into(), &self.facts.effort)?,
             Add(a, b) => self.sum(a, 1, b)?,
             Sub(a, b) => self.sum(a, -1, b)?,
             Mul(a, b) => self.value(a)?.times(&self.value(b)?, &self.facts.effort)?,
@@ -227,13 +220,12 @@ impl<'p> State<'p> {
             }
             PositivePart(a) => {
                 let a = self.value(a)?;
-                self.chosen(&a, &a, &Polynomial::zero().into())?
+                self.chosen(&a, &a, &Polynomial::constant(0).into())?
             }
             // min(−x, x) is −|x|.
             Min(a, b) if self.problem.table.op(a)? == Neg(b) => {
                 self.value(b)?;
-                let size = self.variable(Atom::Size(b))?;
-                self.facts.sum(&Polynomial::zero().into(), -1, &size.into())?
+                self.variable(Atom::Size(b))?.times(&Polynomial::constant(-1), &self.facts.effort)?.into()
             }
             Min(a, b) => {
                 let (first, second) = (self.value(a)?, self.value(b)?);
@@ -266,11 +258,8 @@ impl<'p> State<'p> {
 
     /// Returns one of two values: the first one if a quantity is not negative.
     fn chosen(&self, by: &Quotient, first: &Quotient, second: &Quotient) -> Checked<Quotient> {
-        match by {
-            _ if self.facts.have(by, Sign::NonNegative) => Ok(first.clone()),
-            _ if self.facts.have(by, Sign::NonPositive) => Ok(second.clone()),
-            _ => Err(Refusal::Sign),
-        }
+        let sign = self.premise(by, [Sign::NON_NEGATIVE, Sign::NON_POSITIVE]).or(Err(Refusal::Sign))?;
+        Ok(if sign == Sign::NON_NEGATIVE { first } else { second }.clone())
     }
 
     /// Returns the quantities whose signs are to be proved.

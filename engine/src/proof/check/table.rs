@@ -45,7 +45,8 @@ type Scaled = ([i32; 3], usize);
 pub struct Table {
     formulas: Vec<(Op<usize>, Tree)>,
     numbers: FxHashMap<Op<usize>, usize>,
-    atoms: Vec<Atom>,
+    /// All atoms in order.
+    pub atoms: Vec<Atom>,
     /// The formulas as multiples of those without scales.
     scaled: Vec<Option<Scaled>>,
 }
@@ -124,11 +125,6 @@ impl Table {
         Some((powers, self.insert(unscaled, tree)))
     }
 
-    /// Returns the number of the formula with this last operation.
-    pub fn number(&self, op: &Op<usize>) -> Checked<usize> {
-        self.numbers.get(op).copied().ok_or(Refusal::Unknown)
-    }
-
     /// Returns the last operation of a formula.
     pub fn op(&self, formula: usize) -> Checked<Op<usize>> {
         self.formulas.get(formula).map(|(op, _)| *op).ok_or(Refusal::Unknown)
@@ -139,11 +135,6 @@ impl Table {
         self.formulas.get(number).map(|(_, tree)| tree).ok_or(Refusal::Unknown)
     }
 
-    /// Returns all atoms in order.
-    pub fn atoms(&self) -> &[Atom] {
-        &self.atoms
-    }
-
     /// Returns the variable of an atom.
     pub fn variable(&self, atom: Atom) -> Checked<usize> {
         self.atoms.iter().position(|known| *known == atom).ok_or(Refusal::Unknown)
@@ -152,10 +143,10 @@ impl Table {
     /// Returns the sign that an atom has by its definition.
     pub fn sign(&self, x: usize) -> Sign {
         match self.atoms.get(x) {
-            Some(Atom::Own(name)) if SCALES.contains(name) => Sign::Positive,
-            Some(Atom::Exponential(_)) => Sign::Positive,
-            Some(Atom::Size(_)) => Sign::NonNegative,
-            _ => Sign::Any,
+            Some(Atom::Own(name)) if SCALES.contains(name) => Sign::POSITIVE,
+            Some(Atom::Exponential(_)) => Sign::POSITIVE,
+            Some(Atom::Size(_)) => Sign::NON_NEGATIVE,
+            _ => Sign::ANY,
         }
     }
 

@@ -60,7 +60,7 @@ impl<'a> Page<'a> {
     /// first error, t₁ the first interval parameter, S₁ and F₁ the first absolute value and its factor, and
     /// E₁ the first exponential, which its reciprocal follows.
     fn variable(&self, name: &'static str) -> usize {
-        let atoms = self.0.table.atoms();
+        let atoms = &self.0.table.atoms;
         let mut letters = name.chars();
         let (letter, digit) = (letters.next().unwrap(), letters.next());
         let number = digit.and_then(|digit| u32::from(digit).checked_sub(u32::from('₁')));

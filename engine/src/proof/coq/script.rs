@@ -28,7 +28,7 @@ pub(super) fn program(
     writer.give_hypotheses()?;
     writer.give_values()?;
     let proof = writer.node(&node)?;
-    let atoms = problem.table.atoms().iter().map(|atom| writer.atom(*atom));
+    let atoms = problem.table.atoms.iter().map(|atom| writer.atom(*atom));
     let atoms = atoms.collect::<Result<Vec<_>>>()?;
     let atoms = if atoms.is_empty() { "@nil R".into() } else { list(&atoms) };
     let variable = problem.variable().map_or("_".into(), ascii);
@@ -87,7 +87,7 @@ impl Writer<'_> {
     /// Lists the values of absolute values and of rounded formulas, each after those in it.
     fn give_values(&mut self) -> Result<()> {
         let table = &self.problem.table;
-        for atom in table.atoms() {
+        for atom in &table.atoms {
             if let Atom::Size(of) = atom {
                 self.given.push(format!("absolute {}", self.formula(*of)?));
             }
@@ -164,7 +164,7 @@ impl Writer<'_> {
 
     /// Writes the exponent of an exponential as an argument.
     fn exponent(&self, x: usize) -> Result<String> {
-        match self.problem.table.atoms().get(x) {
+        match self.problem.table.atoms.get(x) {
             Some(Atom::Exponential(of)) => self.formula(*of),
             _ => Err("a law about another quantity than an exponential".into()),
         }

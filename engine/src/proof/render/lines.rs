@@ -33,7 +33,7 @@ impl<'a> Lines<'a> {
     /// Returns a writer for a goal.
     pub(super) fn new(printer: &'a ProofPrinter<'a>, problem: &'a Problem<'a>) -> Self {
         let (mut errors, mut parameters) = (0.., 0..);
-        let atoms = problem.table.atoms().iter().map(|atom| match atom {
+        let atoms = problem.table.atoms.iter().map(|atom| match atom {
             Atom::Own(name) => Tree::symbol(name),
             Atom::Error(_) => Tree::symbol(subscripted('e', errors.next().unwrap_or_default())),
             Atom::IntervalParameter(_) | Atom::Factor(_) => {
@@ -48,7 +48,7 @@ impl<'a> Lines<'a> {
     /// Describes the atoms.
     #[cfg(feature = "serde")]
     pub(super) fn descriptions(&self) -> Vec<String> {
-        let atoms = self.atoms.iter().zip(self.problem.table.atoms());
+        let atoms = self.atoms.iter().zip(&self.problem.table.atoms);
         let described = atoms.map(|(tree, atom)| match atom {
             Atom::Own(_) | Atom::Size(_) | Atom::Exponential(_) => self.text(tree),
             Atom::Error(of) => format!("{tree}: {}", self.rounding(*of)),
@@ -65,7 +65,7 @@ impl<'a> Lines<'a> {
             Node::Cases(on, both) => (on, both),
         };
         let mut lines = Vec::new();
-        for (node, sign) in both.iter().zip([Sign::Positive, Sign::NonPositive]) {
+        for (node, sign) in both.iter().zip([Sign::POSITIVE, Sign::NON_POSITIVE]) {
             let name = subscripted('s', u8::try_from(cases.len()).unwrap_or(u8::MAX));
             lines.push(format!("case {name} = {} {}:", self.polynomial(on, &[]), sign_text(sign)));
             cases.push((on.clone(), sign));
@@ -79,7 +79,7 @@ impl<'a> Lines<'a> {
         let mut state = State::new(self.problem, cases)?;
         let mut added = Vec::with_capacity(steps.len());
         for step in steps {
-            added.push((step, state.facts.iter().len()));
+            added.push((step, state.facts.all.len()));
             state.apply(step)?;
         }
         let goal = self.goal(&mut state)?;
@@ -118,7 +118,7 @@ impl<'a> Lines<'a> {
                 vec![("the derivative is", is.clone(), String::new())]
             }
             (Proposition::Limit(_, by, _), [of, to]) => {
-                let mut atoms = self.problem.table.atoms().iter().enumerate();
+                let mut atoms = self.problem.table.atoms.iter().enumerate();
                 let decays = atoms.any(|(x, atom)| {
                     matches!(atom, Atom::Exponential(_)) && of.num.degree(x) > 0 && self.problem.varies(x)
                 });
@@ -132,7 +132,7 @@ impl<'a> Lines<'a> {
 
     /// Returns the line about rounded formulas.
     fn errors(&self) -> Option<String> {
-        let atoms = self.atoms.iter().zip(self.problem.table.atoms());
+        let atoms = self.atoms.iter().zip(&self.problem.table.atoms);
         let errors = atoms.filter_map(|(tree, atom)| match atom {
             Atom::Error(of) => Some(format!("{tree} of {}", self.rounding(*of))),
             _ => None,
@@ -151,7 +151,7 @@ impl<'a> Lines<'a> {
                 Op::Min(a, b) if self.problem.table.op(a) != Ok(Op::Neg(b)) => (a, self.formula(b)),
                 _ => continue,
             };
-            if state.has_value(i) {
+            if state.values.contains_key(&i) {
                 let is_first = state.value(i)? == state.value(first)?;
                 let value = if is_first { self.formula(first) } else { second };
                 lines.push(format!("{} = {value}", self.formula(i)));
@@ -228,7 +228,7 @@ impl<'a> Lines<'a> {
 
     /// Returns the name of a fact about a polynomial, otherwise the polynomial as a formula, if it is short.
     fn part(&self, of: &Polynomial, state: &State, names: &Names) -> Option<Tree> {
-        let name = state.facts.iter().position(|(known, _)| known == of).and_then(|i| names.get(&i));
+        let name = state.facts.all.iter().position(|(known, _)| known == of).and_then(|i| names.get(&i));
         name.cloned().or_else(|| self.form(of, &[]))
     }
 
@@ -277,7 +277,7 @@ fn names(state: &State, steps: &[Step], cases: usize, goal: &[Phrase]) -> Names 
     let signed = goal.iter().filter(|(_, _, end)| !end.is_empty()).map(|(_, of, _)| &of.num);
     let signed: Vec<_> = signed.filter(|of| of.terms().len() > 1).collect();
     // The first fact is 2 > 0.
-    let facts = state.facts.iter().enumerate().skip(1);
+    let facts = state.facts.all.iter().enumerate().skip(1);
     let facts = facts.filter(|(i, (of, _))| named.contains(i) || signed.contains(&of));
     facts.zip(0..).map(|((i, _), number)| (i, Tree::symbol(subscripted('s', number)))).collect()
 }

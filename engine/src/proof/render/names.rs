@@ -105,7 +105,7 @@ impl ProofPrinter<'_> {
         let terms = value.num().terms().map(|(m, q)| Poly::from_iter([(m.clone(), q.clone())]));
         let (fitting, others): (Vec<_>, Vec<_>) = terms.partition(|term| {
             let sign = choice::sign(term, &context.signs).map(|found| found.sign().times(den));
-            sign.is_some_and(|sign| sign.implies(Sign::NonNegative))
+            sign.is_some_and(|sign| sign.implies(Sign::NON_NEGATIVE))
         });
         let others: Vec<_> = others.iter().map(|term| self.ratio(&term.clone().into(), context)).collect();
         let is_listed = !fitting.is_empty() && others.len() <= 2;

@@ -69,12 +69,12 @@ fn number(n: &Integer) -> Tree {
 /// Returns a sign as text.
 pub(super) fn sign_text(sign: Sign) -> &'static str {
     match sign {
-        Sign::Negative => "< 0",
-        Sign::NonPositive => "≤ 0",
-        Sign::Zero => "= 0",
-        Sign::NonNegative => "≥ 0",
-        Sign::Positive => "> 0",
-        Sign::Any => "of any sign",
+        Sign::NEGATIVE => "< 0",
+        Sign::NON_POSITIVE => "≤ 0",
+        Sign::ZERO => "= 0",
+        Sign::NON_NEGATIVE => "≥ 0",
+        Sign::POSITIVE => "> 0",
+        _ => "of any sign",
     }
 }
 

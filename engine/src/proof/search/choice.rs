@@ -45,8 +45,8 @@ fn has_both_signs(of: &Poly, known: &SignEnv) -> bool {
 fn random_value(random: &mut Rand32, x: usize, known: &SignEnv) -> f64 {
     let size = if known.is_unit(x) { 1.0 } else { 2.0_f64.powi(random.rand_range(0..13) as i32 - 6) };
     let is_negative = match known.get(x) {
-        sign if sign == Sign::Any || known.is_unit(x) => random.rand_range(0..2) == 0,
-        sign => sign.implies(Sign::NonPositive),
+        sign if sign == Sign::ANY || known.is_unit(x) => random.rand_range(0..2) == 0,
+        sign => sign.implies(Sign::NON_POSITIVE),
     };
     if is_negative { -size } else { size }
 }
@@ -94,7 +94,6 @@ fn cancelling_multipliers(value: &Ratio, other: &Ratio, symbols: &[usize]) -> Ve
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::proof::check::Sign::*;
     use crate::proof::effort::{Effort, MAX_EFFORT};
 
     /// The symbols, in order.
@@ -122,20 +121,21 @@ mod tests {
     }
 
     fn found(of: Poly) -> Option<Sign> {
-        let known = [("a", Positive), ("b", Positive), ("z", NonNegative), ("n", Negative)];
+        let known =
+            [("a", Sign::POSITIVE), ("b", Sign::POSITIVE), ("z", Sign::NON_NEGATIVE), ("n", Sign::NEGATIVE)];
         let known = signs(known);
         sign(&of, &known).map(|certificate| certificate.sign())
     }
 
     #[test]
     fn terms_of_one_sign() {
-        assert_eq!(found(x("a") + x("z")), Some(Positive));
-        assert_eq!(found(x("z") + x("u") * x("u")), Some(NonNegative));
-        assert_eq!(found(-(x("a") * x("b"))), Some(Negative));
-        assert_eq!(found(Poly::zero()), Some(Zero));
-        assert_eq!(found(n(-2)), Some(Negative));
-        assert_eq!(found(x("n") * x("n")), Some(Positive));
-        assert_eq!(found(x("n") * x("n") * x("n")), Some(Negative));
+        assert_eq!(found(x("a") + x("z")), Some(Sign::POSITIVE));
+        assert_eq!(found(x("z") + x("u") * x("u")), Some(Sign::NON_NEGATIVE));
+        assert_eq!(found(-(x("a") * x("b"))), Some(Sign::NEGATIVE));
+        assert_eq!(found(Poly::zero()), Some(Sign::ZERO));
+        assert_eq!(found(n(-2)), Some(Sign::NEGATIVE));
+        assert_eq!(found(x("n") * x("n")), Some(Sign::POSITIVE));
+        assert_eq!(found(x("n") * x("n") * x("n")), Some(Sign::NEGATIVE));
         // Odd powers of free symbols and differences have no certain sign.
         assert_eq!(found(x("u")), None);
         assert_eq!(found(x("a") - x("b")), None);
@@ -143,7 +143,7 @@ mod tests {
 
     #[test]
     fn both_signs_are_found_where_both_occur() {
-        let known = [("a", Positive), ("z", NonNegative), ("n", Negative)];
+        let known = [("a", Sign::POSITIVE), ("z", Sign::NON_NEGATIVE), ("n", Sign::NEGATIVE)];
         let known = signs(known);
         for of in [x("u"), x("a") - n(1), x("z") * x("u"), error(0), n(3) * x("a") * error(0) - x("z")] {
             assert!(has_both_signs(&of, &known), "{of:?}");
@@ -169,21 +169,21 @@ mod tests {
     #[test]
     fn quadratics_have_a_sign_unless_they_have_two_roots() {
         let quadratic = |d: i32| x("u") * x("u") + n(2) * x("u") + n(d);
-        assert_eq!(found(quadratic(2)), Some(Positive));
-        assert_eq!(found(quadratic(1)), Some(NonNegative));
+        assert_eq!(found(quadratic(2)), Some(Sign::POSITIVE));
+        assert_eq!(found(quadratic(1)), Some(Sign::NON_NEGATIVE));
         assert_eq!(found(quadratic(0)), None);
-        assert_eq!(found(-quadratic(1)), Some(NonPositive));
+        assert_eq!(found(-quadratic(1)), Some(Sign::NON_POSITIVE));
         // The leading coefficient may be 0.
         assert_eq!(found(x("z") * x("u") * x("u") + x("u") + n(1)), None);
     }
 
     #[test]
     fn factors_between_minus_1_and_1_do_not_increase_terms() {
-        assert_eq!(found(n(3) + error(0) + error(1)), Some(Positive));
-        assert_eq!(found(n(1) + error(0) * error(1)), Some(NonNegative));
-        assert_eq!(found(error(0) - n(1)), Some(NonPositive));
-        assert_eq!(found(x("u") * x("u") * (n(2) + error(0))), Some(NonNegative));
-        assert_eq!(found(x("a") * error(0) - n(2) * x("a") - x("b")), Some(Negative));
+        assert_eq!(found(n(3) + error(0) + error(1)), Some(Sign::POSITIVE));
+        assert_eq!(found(n(1) + error(0) * error(1)), Some(Sign::NON_NEGATIVE));
+        assert_eq!(found(error(0) - n(1)), Some(Sign::NON_POSITIVE));
+        assert_eq!(found(x("u") * x("u") * (n(2) + error(0))), Some(Sign::NON_NEGATIVE));
+        assert_eq!(found(x("a") * error(0) - n(2) * x("a") - x("b")), Some(Sign::NEGATIVE));
         // The other terms are too small, or of unknown sign.
         assert_eq!(found(x("a") + x("b") * error(0)), None);
         assert_eq!(found(n(3) + n(2) * error(0) + n(2) * error(1)), None);
@@ -197,9 +197,9 @@ mod tests {
     fn linear_polynomials_lie_between_their_values_at_the_ends() {
         // Rule 3 fails, as the absolute values of the other terms exceed 2.
         let product = || (n(1) + error(0)) * (n(2) + error(1));
-        assert_eq!(found(product()), Some(NonNegative));
-        assert_eq!(found(-product()), Some(NonPositive));
-        assert_eq!(found(x("a") * product() + x("b")), Some(Positive));
+        assert_eq!(found(product()), Some(Sign::NON_NEGATIVE));
+        assert_eq!(found(-product()), Some(Sign::NON_POSITIVE));
+        assert_eq!(found(x("a") * product() + x("b")), Some(Sign::POSITIVE));
         assert_eq!(found(product() - x("a")), None);
         assert_eq!(found(error(0) * error(0) * n(4) - n(4) * error(0) - error(1)), None);
     }

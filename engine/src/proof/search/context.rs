@@ -47,7 +47,7 @@ impl Context {
         let largest = precision + Poly::constant(1);
         let mut context =
             Context { assumptions, signs, symbols, exponentials, roundings, substitutions, largest };
-        for (x, atom) in table.atoms().iter().enumerate() {
+        for (x, atom) in table.atoms.iter().enumerate() {
             let symbol = match atom {
                 Atom::Own(name) => Some(Symbol::Own(name)),
                 Atom::Error(of) => {
@@ -134,7 +134,7 @@ impl Context {
                     let (rest, factor) = (self.direct_sign(&value - &m * &h)?, self.direct_sign(m)?);
                     let sum_sign = factor.sign().times(sign).plus(rest.sign());
                     let subtracted = Some(Multiple { factor, of: i, sum_sign }.into());
-                    (sum_sign != Sign::Any).then_some(SignedRatio { subtracted, ..rest })
+                    (sum_sign != Sign::ANY).then_some(SignedRatio { subtracted, ..rest })
                 })
             })
         })
@@ -153,19 +153,18 @@ impl Context {
             _ if self.direct_sign(value.clone()).is_some_and(|signed| signed.sign().implies(sign)) => {
                 AssumptionUse::Unused
             }
-            Sign::Negative | Sign::NonPositive => {
+            Sign::NEGATIVE | Sign::NON_POSITIVE => {
                 let fact = AssumedFact { scale: -fact.scale, ..fact };
                 return self.assume(hypothesis, &-value, sign.negated(), fact);
             }
-            Sign::Any => AssumptionUse::Unused,
-            Sign::Zero => match self.pivot(hypothesis, &value, &Poly::zero(), &self.signs) {
+            Sign::ZERO => match self.pivot(hypothesis, &value, &Poly::zero(), &self.signs) {
                 Some((pivot, by)) => {
                     self.replace(pivot.clone(), by);
                     AssumptionUse::Equation(pivot)
                 }
                 None => AssumptionUse::Unused,
             },
-            Sign::Positive | Sign::NonNegative => match self.multiple(hypothesis, &value, sign) {
+            Sign::POSITIVE | Sign::NON_NEGATIVE => match self.multiple(hypothesis, &value, sign) {
                 Some((factor, x)) => {
                     value = value * &factor;
                     fact.scale = fact.scale * factor;
@@ -173,6 +172,7 @@ impl Context {
                 }
                 None => AssumptionUse::Retained(sign),
             },
+            _ => AssumptionUse::Unused,
         };
         self.add(hypothesis, value, fact, usage);
     }
@@ -196,7 +196,7 @@ impl Context {
         sign: Sign,
     ) -> Option<(Ratio, usize)> {
         let mut symbols = value.num().variables();
-        symbols.retain(|x| self.signs.get(*x) == Sign::Positive);
+        symbols.retain(|x| self.signs.get(*x) == Sign::POSITIVE);
         let mut divisors = iter::once(Poly::constant(1)).chain(symbols.into_iter().map(Poly::variable));
         divisors.find_map(|divisor| {
             let factor = Ratio::from(Poly::constant(1)).checked_div(&divisor.into())?;
@@ -222,7 +222,7 @@ impl Context {
 
     /// Uses the fact with this number, that a polynomial is 0.
     pub(super) fn equate(&mut self, fact: usize, of: &Polynomial) {
-        self.assume(None, &poly(of).into(), Sign::Zero, AssumedFact::new(fact, Vec::new()));
+        self.assume(None, &poly(of).into(), Sign::ZERO, AssumedFact::new(fact, Vec::new()));
     }
 
     /// Retains a multiple of a fact of known sign, for a positive factor.
@@ -317,7 +317,7 @@ impl PivotChoice<'_> {
         let solved_for = self.hypothesis.map(|hypothesis| Symbol::Own(hypothesis.solved_for));
         let has_errors = variables.iter().any(|x| self.known.is_unit(*x));
         let signs = &self.context.signs;
-        let free = variables.iter().filter(|x| signs.get(**x) == Sign::Any && !self.known.is_unit(**x));
+        let free = variables.iter().filter(|x| signs.get(**x) == Sign::ANY && !self.known.is_unit(**x));
         let solvable = free.filter(|x| solve_for(&Monomial::of(**x), self.equation, self.known).is_some());
         let first = solvable.min_by_key(|x| has_errors && self.context.symbol(**x) != solved_for);
         first.map(|x| Monomial::of(*x))
@@ -326,7 +326,7 @@ impl PivotChoice<'_> {
     /// Returns the product with the fewest symbols of known sign.
     fn product(&self) -> Option<Monomial> {
         let signed =
-            |m: &Monomial| m.powers().filter(|(x, _)| self.context.signs.get(*x) != Sign::Any).count();
+            |m: &Monomial| m.powers().filter(|(x, _)| self.context.signs.get(*x) != Sign::ANY).count();
         let monomials = self.value.num().terms().map(|(m, _)| m);
         let products =
             monomials.filter(|m| m.powers().count() > 1 && !m.powers().any(|(x, _)| self.known.is_unit(x)));
@@ -341,7 +341,7 @@ impl PivotChoice<'_> {
             let by = self.context.reduce(&solve_for(&pivot, self.equation, self.known)?);
             let sign = self.context.sign_under(by, self.known)?.sign();
             let known = self.context.signs.get(*x);
-            (known != Sign::Any && sign.implies(known)).then_some(pivot)
+            (known != Sign::ANY && sign.implies(known)).then_some(pivot)
         })
     }
 }

@@ -49,7 +49,7 @@ impl<'f, 'p> Finder<'f, 'p> {
             self.facts.push(fact);
             self.facts.len() - 1
         });
-        let first = self.proof.state.problem.table.atoms().len();
+        let first = self.proof.state.problem.table.atoms.len();
         Poly::variable((first + i).min(MAX_VARIABLES - 1))
     }
 

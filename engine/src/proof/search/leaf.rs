@@ -55,7 +55,7 @@ impl Steps<'_> {
     pub fn add(&mut self, step: Step) -> Result<usize> {
         self.state.apply(&step)?;
         self.steps.push(step);
-        Ok(self.state.facts.iter().len() - 1)
+        Ok(self.state.facts.all.len() - 1)
     }
 }
 
@@ -111,7 +111,7 @@ impl<'a> Search<'a> {
                 self.orders(c, d)?;
                 // fl(a) ≥ fl(b) follows from a ≥ b.
                 let difference = self.difference(c, d)?;
-                self.show(&difference, Use::Goal(Sign::NonNegative))?;
+                self.show(&difference, Use::Goal(Sign::NON_NEGATIVE))?;
                 [a, b].into_iter().try_for_each(|of| self.value(of).map(|_| ()))?;
                 let fact = self.proof.add(Step::Law(Law::Order([a, b])))?;
                 self.known.retain(fact, self.proof.state.facts.get(fact)?, Poly::constant(1));
@@ -178,7 +178,7 @@ impl<'a> Search<'a> {
 
     /// Returns the value of a formula, after the steps that its translation requires.
     pub fn value(&mut self, formula: usize) -> Result<Quotient> {
-        if !self.proof.state.has_value(formula) {
+        if !self.proof.state.values.contains_key(&formula) {
             let op = self.problem().table.op(formula)?;
             op.operands().try_for_each(|operand| self.value(*operand).map(|_| ()))?;
             match op {
@@ -214,14 +214,14 @@ impl<'a> Search<'a> {
     /// Shows the sign of a quantity by a certificate for its numerator, unless a fact states it. A weak sign that is known
     /// is replaced by a definite one if that is found.
     fn show(&mut self, of: &Quotient, usage: Use) -> Result<()> {
-        let facts = self.proof.state.facts.iter().filter(|(known, _)| *known == of.num);
+        let facts = self.proof.state.facts.all.iter().filter(|(known, _)| *known == of.num);
         let known: Vec<_> = facts.map(|(_, sign)| *sign).collect();
         if of.num.is_zero() || known.iter().any(|sign| is_definite(*sign)) {
             return Ok(());
         }
         // The numerator is shorter than the quotient, but its sign may be found by the other's alone.
         let signed = self.known.direct_sign(self.known.reduced(&of.num)).filter(|signed| {
-            let may_be_weak = matches!(usage, Use::Branch | Use::Goal(Sign::NonNegative));
+            let may_be_weak = matches!(usage, Use::Branch | Use::Goal(Sign::NON_NEGATIVE));
             is_definite(signed.sign()) || known.is_empty() && may_be_weak
         });
         if let Some(signed) = signed {
@@ -232,7 +232,7 @@ impl<'a> Search<'a> {
         }
         let value = self.known.reduced_quotient(of, &self.proof.state);
         let signed = self.known.sign(value.clone());
-        let is_unequal = usage == Use::Goal(Sign::Zero) && !value.is_zero();
+        let is_unequal = usage == Use::Goal(Sign::ZERO) && !value.is_zero();
         if (is_unequal || signed.is_none()) && self.list_law()? {
             return self.show(of, usage);
         }
@@ -303,7 +303,7 @@ impl<'a> Search<'a> {
         let mut rest = poly(of);
         let mut candidates: Vec<Poly> =
             rest.common_monomial().powers().map(|(x, _)| Poly::variable(x)).collect();
-        let facts = self.proof.state.facts.iter();
+        let facts = self.proof.state.facts.all.iter();
         let strict = facts.filter(|(of, sign)| sign.is_strict() && of.terms().len() > 1);
         candidates.extend(strict.map(|(of, _)| poly(of)));
         candidates.extend(self.known.largest_errors(&rest));
@@ -338,7 +338,8 @@ impl<'a> Search<'a> {
     /// Adds the laws of an exponential and its reciprocal to those that may be listed.
     fn exponential(&mut self, exponent: usize) -> Result<()> {
         let table = &self.problem().table;
-        let reciprocal = table.number(&Op::Neg(exponent))?;
+        let mut ops = (0..).map_while(|of| table.op(of).ok());
+        let reciprocal = ops.position(|op| op == Op::Neg(exponent)).ok_or(Refusal::Unknown)?;
         let pair = [exponent, reciprocal].map(|of| table.variable(Atom::Exponential(of)));
         let [x, y] = [pair[0]?, pair[1]?];
         if self.exponentials.contains(&x) {
@@ -369,7 +370,7 @@ impl<'a> Search<'a> {
         }
         let quotient = self.proof.state.value(of)?;
         let value = self.known.reduced_quotient(&quotient, &self.proof.state);
-        let next = self.proof.state.facts.iter().len();
+        let next = self.proof.state.facts.all.len();
         let is_free = !self.known.has_size(&value) && self.known.sign(value.clone()).is_none();
         let law = if is_free && self.known.assume_size([size, factor], &value, next) {
             self.sizes.push((self.position, value));
@@ -387,7 +388,7 @@ impl<'a> Search<'a> {
 
 /// Returns `true` if no other sign implies this one.
 fn is_definite(sign: Sign) -> bool {
-    sign.is_strict() || sign == Sign::Zero
+    sign.is_strict() || sign == Sign::ZERO
 }
 
 fn is_integral(of: &Poly) -> bool {

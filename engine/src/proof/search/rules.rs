@@ -14,7 +14,7 @@
 //!    coefficients (Bernstein form). In degree one the coefficients are its values at the ends.
 
 use super::algebra::{Monomial, Poly, VARIABLES};
-use crate::proof::check::Sign::{self, Negative, NonNegative, NonPositive, Positive, Zero};
+use crate::proof::check::Sign;
 use crate::proof::effort::Effort;
 use rug::{Complete, Integer, Rational};
 use std::iter;
@@ -31,7 +31,7 @@ pub struct SignEnv {
 impl SignEnv {
     /// Creates an environment without signs, in which these variables are between −1 and 1.
     pub fn new(units: impl IntoIterator<Item = usize>, effort: Effort) -> Self {
-        let mut env = SignEnv { signs: [Sign::Any; VARIABLES], is_unit: [false; VARIABLES], effort };
+        let mut env = SignEnv { signs: [Sign::ANY; VARIABLES], is_unit: [false; VARIABLES], effort };
         units.into_iter().for_each(|x| env.is_unit[x] = true);
         env
     }
@@ -113,10 +113,10 @@ impl Certificate {
 
     /// Applies rule 1.
     pub fn termwise(of: &Poly, known: &SignEnv) -> Option<Self> {
-        let sign = of.terms().fold(Zero, |sum, (monomial, coefficient)| {
+        let sign = of.terms().fold(Sign::ZERO, |sum, (monomial, coefficient)| {
             sum.plus(sign_of_number(coefficient).times(sign_of_monomial(monomial, known)))
         });
-        (sign != Sign::Any).then(|| Certificate { of: of.clone(), sign, rule: Rule::Terms })
+        (sign != Sign::ANY).then(|| Certificate { of: of.clone(), sign, rule: Rule::Terms })
     }
 
     /// Applies rule 2 to f = a x² + b x + c: 4 a f = (2 a x + b)² + (4 a c − b²).
@@ -125,10 +125,10 @@ impl Certificate {
         let leading = Certificate::termwise(&a, known).filter(|a| a.sign.is_strict())?;
         known.spend(&a, &c).and(known.spend(&b, &b))?;
         let rest = Poly::constant(4) * &a * c - &b * &b;
-        let sign = NonNegative.plus(Certificate::termwise(&rest, known)?.sign).times(leading.sign);
+        let sign = Sign::NON_NEGATIVE.plus(Certificate::termwise(&rest, known)?.sign).times(leading.sign);
         let root = Poly::constant(2) * &a * Poly::variable(x) + b;
         let rule = Rule::Square { leading: a, root, rest };
-        (sign != Sign::Any).then(|| Certificate { of: of.clone(), sign, rule })
+        (sign != Sign::ANY).then(|| Certificate { of: of.clone(), sign, rule })
     }
 
     /// Applies rule 3.
@@ -137,17 +137,19 @@ impl Certificate {
             of.terms().partition(|(m, _)| m.powers().any(|(x, _)| known.is_unit(x)));
         let sizes = unit_terms.into_iter().map(|(m, q)| size(m, q, known)).collect::<Option<Poly>>()?;
         let others: Poly = others.into_iter().map(|(m, q)| (m.clone(), q.clone())).collect();
-        [(NonNegative, &others - &sizes), (NonPositive, others + sizes)].iter().find_map(|(side, bound)| {
-            let sign = Certificate::termwise(bound, known)?.sign.plus(*side);
-            (sign != Sign::Any).then(|| Certificate { of: of.clone(), sign, rule: Rule::Terms })
-        })
+        [(Sign::NON_NEGATIVE, &others - &sizes), (Sign::NON_POSITIVE, others + sizes)].iter().find_map(
+            |(side, bound)| {
+                let sign = Certificate::termwise(bound, known)?.sign.plus(*side);
+                (sign != Sign::ANY).then(|| Certificate { of: of.clone(), sign, rule: Rule::Terms })
+            },
+        )
     }
 
     /// Applies rule 4 to a variable between −1 and 1.
     pub fn endpoints(of: &Poly, x: usize, find: impl Fn(&Poly) -> Option<Self>) -> Option<Self> {
         let at: Vec<_> = bernstein(of, x).iter().map(find).collect::<Option<_>>()?;
         // Strict signs come first. The products aⁱ (1 − a)ⁿ⁻ⁱ are not all 0, so they preserve them.
-        let signs = [Positive, Negative, NonNegative, NonPositive];
+        let signs = [Sign::POSITIVE, Sign::NEGATIVE, Sign::NON_NEGATIVE, Sign::NON_POSITIVE];
         let sign = signs.into_iter().find(|sign| at.iter().all(|c| c.sign.implies(*sign)))?;
         let rule = Rule::Endpoints { x, at: at.into() };
         Some(Certificate { of: of.clone(), sign, rule })
@@ -158,22 +160,22 @@ impl Certificate {
 fn size(m: &Monomial, q: &Rational, known: &SignEnv) -> Option<(Monomial, Rational)> {
     let rest = m.only(|x| !known.is_unit(x));
     let sign = sign_of_monomial(&rest, known);
-    let size = q.clone().abs() * if sign.implies(NonPositive) { -1 } else { 1 };
-    (sign != Sign::Any).then_some((rest, size))
+    let size = q.clone().abs() * if sign.implies(Sign::NON_POSITIVE) { -1 } else { 1 };
+    (sign != Sign::ANY).then_some((rest, size))
 }
 
 /// Returns the sign of a coefficient, which is not 0.
 fn sign_of_number(q: &Rational) -> Sign {
-    if q.cmp0().is_lt() { Negative } else { Positive }
+    if q.cmp0().is_lt() { Sign::NEGATIVE } else { Sign::POSITIVE }
 }
 
 fn sign_of_monomial(monomial: &Monomial, known: &SignEnv) -> Sign {
     let signs = monomial.powers().map(|(x, n)| match (n % 2, known.get(x)) {
         (1, sign) => sign,
-        (_, Sign::Any) => NonNegative,
+        (_, Sign::ANY) => Sign::NON_NEGATIVE,
         (_, sign) => sign.times(sign),
     });
-    signs.fold(Positive, Sign::times)
+    signs.fold(Sign::POSITIVE, Sign::times)
 }
 
 /// Returns the coefficients bᵢ for which a polynomial of degree n in x is Σ bᵢ aⁱ (1 − a)ⁿ⁻ⁱ, where
@@ -224,6 +226,6 @@ mod tests {
         let known = SignEnv::new([0, 1], Effort::default());
         let terms = |of: &Poly| Certificate::termwise(of, &known);
         let sign = |of: &Poly| Certificate::endpoints(of, x, terms).map(|found| found.sign());
-        assert_eq!([sign(&of), sign(&-of)], [Some(NonNegative), Some(NonPositive)]);
+        assert_eq!([sign(&of), sign(&-of)], [Some(Sign::NON_NEGATIVE), Some(Sign::NON_POSITIVE)]);
     }
 }

@@ -66,7 +66,7 @@ fn limits_are_reached_and_not_exceeded() {
     accept(&claim, &[leaf(0, square)]);
     // The minimum of two formulas is no absolute value.
     let [a, b] = ["a", "b"].map(x);
-    assert_eq!(Page::of(&non_negative("f", a.min(&b))).0.table.atoms(), [Atom::Own("a"), Atom::Own("b")]);
+    assert_eq!(Page::of(&non_negative("f", a.min(&b))).0.table.atoms, [Atom::Own("a"), Atom::Own("b")]);
 }
 
 #[test]
