@@ -87,13 +87,13 @@ impl Polynomial {
         let (short, long) = if self.0.len() < other.0.len() { (self, other) } else { (other, self) };
         for (a, p) in &short.0 {
             for (b, q) in &long.0 {
-                let (mut powers, mut largest) = (*a, 0);
+                let (mut powers, mut exceeds) = (*a, false);
                 // A loop without an exit is compiled to few instructions.
                 for (n, m) in powers.iter_mut().zip(b) {
-                    *n = n.saturating_add(*m);
-                    largest = largest.max(*n);
+                    exceeds |= n.checked_add(*m).is_none();
+                    *n = n.wrapping_add(*m);
                 }
-                let number = p.checked_mul(*q).filter(|_| largest < u8::MAX);
+                let number = p.checked_mul(*q).filter(|_| !exceeds);
                 terms.push((powers, number.ok_or(Refusal::TooLarge)?));
             }
         }
