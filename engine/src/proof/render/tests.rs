@@ -158,8 +158,8 @@ fn the_proof_of_a_rounding_bound_says_what_its_errors_are() {
         bound[4..],
         [
             "s₃ = 2ᵖ a e₁ + 2ᵖ a + a > 0, as it is a e₁ s₁ + 4 a e₁ + a s₁ + 5 a",
-            "the bound − it is s₂ / ((2ᵖ + 1) 2ᵖ) ≥ 0",
-            "the bound + it is s₃ / ((2ᵖ + 1) 2ᵖ) ≥ 0",
+            "the bound − it is s₂ / (2ᵖ (2ᵖ + 1)) ≥ 0",
+            "the bound + it is s₃ / (2ᵖ (2ᵖ + 1)) ≥ 0",
         ]
     );
 }

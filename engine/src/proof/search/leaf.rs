@@ -143,7 +143,8 @@ impl<'a> Search<'a> {
         {
             self.orders(a, b)?;
         }
-        goal.iter().try_for_each(|of| self.value(*of).map(|_| ()))?;
+        // A bound is shorter than what it bounds.
+        goal.iter().rev().try_for_each(|of| self.value(*of).map(|_| ()))?;
         if let Proposition::Limit(..) = proposition {
             let of = self.value(goal[0])?;
             return self.limit(&of).map_err(|reason| self.no_limit(reason, &of));
