@@ -4,13 +4,12 @@ use super::algebra::{FIRST_SLACK, Monomial, Poly, Ratio, UNKNOWN};
 use super::assumption::{AssumedFact, Assumption, AssumptionUse, Multiple, SignedRatio};
 use super::choice;
 use super::dictionary::poly;
-use super::error::Quantity;
 use super::rules::SignEnv;
 use super::symbol::Symbol;
 use crate::formula::Hypothesis;
 use crate::formula::claim::PRECISION;
 use crate::number::{Exponential, Tree};
-use crate::proof::check::{Atom, Polynomial, Problem, Sign};
+use crate::proof::check::{Atom, Polynomial, Problem, Quotient, Sign, State};
 use std::collections::BTreeMap;
 use std::iter;
 
@@ -76,11 +75,6 @@ impl Context {
         context
     }
 
-    /// Returns a quantity at which the search ends.
-    pub(super) fn quantity(&self, value: Ratio) -> Quantity {
-        Quantity { value, context: self.clone().into() }
-    }
-
     /// Returns a variable as it is named in messages.
     pub(in crate::proof) fn symbol(&self, x: usize) -> Option<Symbol> {
         self.symbols.get(&x).copied()
@@ -108,6 +102,37 @@ impl Context {
             let is_replaced = value.contains(pivot) && self.signs.spend(value.num(), by.num()).is_some();
             if is_replaced { value.replace(pivot, by) } else { value }
         })
+    }
+
+    /// Returns a quantity of a derivation in original variables.
+    pub fn original(&self, value: &Ratio) -> Ratio {
+        self.assumptions.iter().rev().fold(value.clone(), |value, assumption| match assumption.usage {
+            AssumptionUse::Variable(x) => value.replace(&Monomial::of(x), &assumption.value),
+            _ => value,
+        })
+    }
+
+    /// Returns a quotient of the checker, without those factors of the denominator that divide the numerator.
+    pub fn ratio(&self, of: &Quotient, state: &State) -> Ratio {
+        let (mut num, mut den) = (poly(&of.num), Poly::constant(1));
+        for (fact, _) in of.den.iter().filter_map(|i| state.facts.get(*i).ok()) {
+            let factor = poly(fact);
+            match num.checked_div(&factor) {
+                Some(quotient) => num = quotient,
+                None => den = den * factor,
+            }
+        }
+        Ratio::from(num).checked_div(&den.into()).unwrap_or_else(Ratio::zero)
+    }
+
+    /// Returns a polynomial of the checker, reduced.
+    pub fn reduced(&self, of: &Polynomial) -> Ratio {
+        self.reduce(&poly(of).into())
+    }
+
+    /// Returns a quotient of the checker, reduced.
+    pub fn reduced_quotient(&self, of: &Quotient, state: &State) -> Ratio {
+        self.reduce(&self.ratio(of, state))
     }
 
     /// Returns the sign of a reduced quotient if the rules find those of numerator and denominator.

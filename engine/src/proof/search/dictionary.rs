@@ -3,44 +3,9 @@
 //! Their variables are the same, but the search replaces pivots by slack variables. A quantity in *original* variables
 //! is a polynomial of the search without slack variables.
 
-use super::algebra::{Monomial, Poly, Ratio};
-use super::assumption::AssumptionUse;
-use super::context::Context;
-use crate::proof::check::{Polynomial, Quotient, State};
+use super::algebra::{Monomial, Poly};
+use crate::proof::check::Polynomial;
 use rug::{Complete, Rational};
-
-impl Context {
-    /// Returns a quantity of a derivation in original variables.
-    pub fn original(&self, value: &Ratio) -> Ratio {
-        self.assumptions.iter().rev().fold(value.clone(), |value, assumption| match assumption.usage {
-            AssumptionUse::Variable(x) => value.replace(&Monomial::of(x), &assumption.value),
-            _ => value,
-        })
-    }
-
-    /// Returns a quotient of the checker, without those factors of the denominator that divide the numerator.
-    pub fn ratio(&self, of: &Quotient, state: &State) -> Ratio {
-        let (mut num, mut den) = (poly(&of.num), Poly::constant(1));
-        for (fact, _) in of.den.iter().filter_map(|i| state.facts.get(*i).ok()) {
-            let factor = poly(fact);
-            match num.checked_div(&factor) {
-                Some(quotient) => num = quotient,
-                None => den = den * factor,
-            }
-        }
-        Ratio::from(num).checked_div(&den.into()).unwrap_or_else(Ratio::zero)
-    }
-
-    /// Returns a polynomial of the checker, reduced.
-    pub fn reduced(&self, of: &Polynomial) -> Ratio {
-        self.reduce(&poly(of).into())
-    }
-
-    /// Returns a quotient of the checker, reduced.
-    pub fn reduced_quotient(&self, of: &Quotient, state: &State) -> Ratio {
-        self.reduce(&self.ratio(of, state))
-    }
-}
 
 /// Returns a polynomial in original variables as one of the checker.
 pub fn polynomial(of: &Poly) -> Option<Polynomial> {

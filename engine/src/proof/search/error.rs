@@ -44,6 +44,13 @@ pub struct Quantity {
     pub(in crate::proof) context: Arc<Context>,
 }
 
+impl Context {
+    /// Returns a quantity at which the search ends.
+    pub(super) fn quantity(&self, value: Ratio) -> Quantity {
+        Quantity { value, context: self.clone().into() }
+    }
+}
+
 impl From<Premise> for ProofError {
     fn from(premise: Premise) -> Self {
         ProofError::Premise(premise)

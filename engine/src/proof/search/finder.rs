@@ -5,15 +5,29 @@ use super::algebra::{Monomial, Poly, Ratio};
 use super::assumption::{AssumedFact, AssumptionUse, SignedRatio};
 use super::context::Context;
 use super::dictionary::{poly, polynomial};
-use super::leaf::Steps;
 use super::symbol::Symbol;
-use crate::proof::check::{Certificate, MAX_VARIABLES, Polynomial, Step};
+use crate::proof::check::{Certificate, MAX_VARIABLES, Polynomial, State, Step};
 
 /// Maximum nesting of lemmas.
 const MAX_DEPTH: u32 = 4;
 
 /// The result of a part of a search.
 pub type Result<T> = std::result::Result<T, ProofError>;
+
+/// The steps so far, and the knowledge of the checker after them.
+pub struct Steps<'a> {
+    pub state: State<'a>,
+    pub steps: Vec<Step>,
+}
+
+impl Steps<'_> {
+    /// Adds a step, and returns the number of the last fact.
+    pub fn add(&mut self, step: Step) -> Result<usize> {
+        self.state.apply(&step)?;
+        self.steps.push(step);
+        Ok(self.state.facts.all.len() - 1)
+    }
+}
 
 /// A search for one certificate.
 pub struct Finder<'f, 'p> {

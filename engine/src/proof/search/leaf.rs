@@ -4,7 +4,7 @@ use super::algebra::{Poly, Ratio};
 use super::assumption::AssumedFact;
 use super::context::Context;
 use super::dictionary::{poly, polynomial};
-use super::finder::{Finder, Result};
+use super::finder::{Finder, Result, Steps};
 use super::{Case, ProofError};
 use crate::formula::Relation;
 use crate::formula::claim::PRECISION;
@@ -14,12 +14,6 @@ use crate::number::tree::Op;
 use crate::proof::check::{Atom, Law, Polynomial, Problem, Quotient, Refusal, Sign, State, Step};
 use std::collections::VecDeque;
 use std::iter;
-
-/// The steps so far, and the knowledge of the checker after them.
-pub struct Steps<'a> {
-    pub state: State<'a>,
-    pub steps: Vec<Step>,
-}
 
 /// A search for the steps of a leaf.
 pub struct Search<'a> {
@@ -48,15 +42,6 @@ enum Use {
     Branch,
     /// It is to be proved that it has this sign.
     Goal(Sign),
-}
-
-impl Steps<'_> {
-    /// Adds a step, and returns the number of the last fact.
-    pub fn add(&mut self, step: Step) -> Result<usize> {
-        self.state.apply(&step)?;
-        self.steps.push(step);
-        Ok(self.state.facts.all.len() - 1)
-    }
 }
 
 impl<'a> Search<'a> {
