@@ -23,7 +23,7 @@ impl Hypothesis {
         self.holds_with(symbol, &piecewise_ops)
     }
 
-    /// Like [`holds`](Self::holds), with further operations as in [`Tree::eval`].
+    /// Like [`holds`](Self::holds), with further operations as in [`Tree::eval`](crate::number::Tree::eval).
     pub fn holds_with<T: Field + PartialOrd>(
         &self,
         symbol: &impl Fn(&'static str) -> T,
