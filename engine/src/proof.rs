@@ -26,9 +26,9 @@
 //! Most of this can be checked independently: [`coq`] writes the same claims for the proof assistant Coq,
 //! whose kernel checks them anew, and tests ensure that nothing is proved that numbers
 //! [`refute`](mod@refute). For a claim that the export [omits](coq::Development::omitted), the checker stands alone:
-//! limits with hypotheses on their variable other than lower bounds, limits in cases or of absolute values, and limits of
-//! exponentials other than one decaying at a constant rate. Rounding errors of formulas are proved as well, for every precision. Claims about
-//! the solver in floats, about its guarantees and iteration counts, are tested by experiments, not proved.
+//! a computed quantity in another claim than one bound, and sequences of several components that are perturbed or have a
+//! limit. Rounding errors of formulas are proved as well, for every precision. Claims about the solver in floats, about
+//! its guarantees and iteration counts, are tested by experiments, not proved.
 
 pub mod check;
 pub mod coq;

@@ -3,7 +3,7 @@
 //!
 //! A [`Development`] contains each function of a registry as a definition, printed from its recorded formula,
 //! and each claim as a theorem about these definitions with its hypotheses as premises. A program in Coq that
-//! is proved correct there (`polynomials.v`, `quotients.v`) translates formulas into quotients of polynomials
+//! is proved correct there (`polynomials.v`, `powers.v`, `quotients.v`) translates formulas into quotients of polynomials
 //! and checks the certificates of their signs, like the [checker](super::check). Its input is the same proof.
 //! None of this has to be trusted: if Coq accepts the files, it remains to trust Coq's kernel, its axioms of
 //! the real numbers, and that definitions and theorems agree with their sources.

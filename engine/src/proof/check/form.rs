@@ -48,8 +48,8 @@ impl State<'_> {
 
     /// Returns the sign of a form f that follows from that of a form g, where f − g has the sign `side`.
     ///
-    /// In g there are no factors between −1 and 1. A term with such factors is at least, or for f ≤ g at most, the
-    /// smaller or larger one of c and −c, where c is the term without them; if they are all squares, of c and 0.
+    /// g has no factors between −1 and 1. A term of f with such factors is replaced by a bound: for f ≥ g the smaller of
+    /// c and −c, where c is the term without them, or of c and 0 if they are squares; for f ≤ g the larger one.
     fn sign_by_bound(&self, form: &Polynomial, signs: &[Sign], side: Sign) -> Checked<Sign> {
         let (mut bound, mut difference) = (Vec::new(), Sign::ZERO);
         for (powers, number) in form.terms() {
