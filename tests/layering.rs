@@ -9,7 +9,7 @@ mod files;
 
 use files::{files, source};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Modules that each module may depend on.
 const KNOWS: [(&str, &[&str]); 9] = [
@@ -259,4 +259,21 @@ fn the_fields_of_proofs_are_private_to_the_checker() {
     for name in SEALED {
         assert!(structures.iter().any(|known| *known == name), "{name} is not among {structures:?}");
     }
+}
+
+/// No two public types have the same name.
+#[test]
+fn every_public_type_has_a_name_of_its_own() {
+    let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for path in SOURCES.into_iter().flat_map(files) {
+        for line in source(&path).lines() {
+            let keywords = ["pub struct ", "pub enum ", "pub trait ", "pub type "];
+            let Some(rest) = keywords.iter().find_map(|keyword| line.strip_prefix(keyword)) else { continue };
+            let name: String = rest.chars().take_while(|c| c.is_alphanumeric()).collect();
+            places.entry(name).or_default().push(path.clone());
+        }
+    }
+    assert!(places.len() > 100, "{} types", places.len());
+    places.retain(|_, places| places.len() > 1);
+    assert!(places.is_empty(), "{places:#?}");
 }

@@ -55,9 +55,9 @@ pub use premises::Premise;
 pub(in crate::proof) use premises::check_premises;
 pub(in crate::proof) use quotient::Quotient;
 pub use sign::Sign;
-pub(in crate::proof) use state::State;
+pub(in crate::proof) use state::Knowledge;
 pub use table::Atom;
-pub(in crate::proof) use table::Problem;
+pub(in crate::proof) use table::Sequent;
 
 use crate::formula::statement::Statement;
 
@@ -236,25 +236,25 @@ pub fn check(statement: &Statement, goals: &[Node]) -> Result<Proof, CheckError>
         return Err(CheckError::Goals);
     }
     for (i, (goal, node)) in statement.goals().iter().zip(goals).enumerate() {
-        let problem = Problem::new(&goal.proposition, statement.hypotheses_for(goal.role));
-        let checked = problem.and_then(|problem| check_node(&problem, &[], node));
+        let sequent = Sequent::new(&goal.proposition, statement.hypotheses_for(goal.role));
+        let checked = sequent.and_then(|sequent| check_node(&sequent, &[], node));
         checked.map_err(|reason| CheckError::Goal(i, reason))?;
     }
     Ok(Proof { statement: statement.clone(), goals: goals.into() })
 }
 
 /// Checks a proof under the assumptions of cases.
-fn check_node(problem: &Problem, cases: &[(Polynomial, Sign)], node: &Node) -> Checked<()> {
+fn check_node(sequent: &Sequent, cases: &[(Polynomial, Sign)], node: &Node) -> Checked<()> {
     match node {
         Node::Cases(..) if cases.len() >= MAX_NESTING => Err(Refusal::TooLarge),
         Node::Cases(on, both) => {
             let mut both = both.iter().zip([Sign::POSITIVE, Sign::NON_POSITIVE]);
             both.try_for_each(|(node, sign)| {
-                check_node(problem, &[cases, &[(on.clone(), sign)]].concat(), node)
+                check_node(sequent, &[cases, &[(on.clone(), sign)]].concat(), node)
             })
         }
         Node::Leaf(steps) => {
-            let mut state = State::new(problem, cases)?;
+            let mut state = Knowledge::new(sequent, cases)?;
             steps.iter().try_for_each(|step| state.apply(step))?;
             if state.proves_goal()? { Ok(()) } else { Err(Refusal::Goal) }
         }

@@ -9,7 +9,7 @@ pub use summary::proof_summary;
 
 use self::lines::Lines;
 use super::check::Proof;
-use super::check::{Node, Problem, Step};
+use super::check::{Node, Sequent, Step};
 #[cfg(feature = "serde")]
 use super::data::GoalProof;
 use crate::formula::claim::{MEMBERS, POWER};
@@ -190,9 +190,9 @@ impl<'a> ProofPrinter<'a> {
         }));
         let single = statement.goals().len() == 1;
         for (Goal { part, role, proposition }, node) in statement.goals().iter().zip(proof.goals()) {
-            let problem = Problem::new(proposition, statement.hypotheses_for(*role));
+            let sequent = Sequent::new(proposition, statement.hypotheses_for(*role));
             let goal_lines =
-                problem.and_then(|problem| Lines::new(&printer, &problem).node(node, &mut Vec::new()));
+                sequent.and_then(|sequent| Lines::new(&printer, &sequent).node(node, &mut Vec::new()));
             let goal_lines = goal_lines.unwrap_or_else(|reason| vec![reason.to_string()]);
             if single {
                 return [lines, goal_lines].concat();
@@ -215,12 +215,12 @@ impl<'a> ProofPrinter<'a> {
         let printer = self.for_statement(statement);
         let all = statement.goals().iter().zip(proof.goals());
         all.filter_map(|(Goal { role, proposition, .. }, proof)| {
-            let problem = Problem::new(proposition, statement.hypotheses_for(*role)).ok()?;
-            let hypotheses = problem.hypotheses.iter().map(|h| printer.registry.format_hypothesis(h));
+            let sequent = Sequent::new(proposition, statement.hypotheses_for(*role)).ok()?;
+            let hypotheses = sequent.hypotheses.iter().map(|h| printer.registry.format_hypothesis(h));
             Some(GoalProof {
                 goal: printer.format_proposition(proposition),
                 hypotheses: hypotheses.collect(),
-                atoms: Lines::new(&printer, &problem).descriptions(),
+                atoms: Lines::new(&printer, &sequent).descriptions(),
                 proof: proof.clone(),
             })
         })

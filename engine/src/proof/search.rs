@@ -34,7 +34,7 @@ mod tests;
 
 pub use self::error::{ProofError, Quantity};
 
-use super::check::{self, Node, Polynomial, Premise, Problem, Proof, Sign, check};
+use super::check::{self, Node, Polynomial, Premise, Proof, Sequent, Sign, check};
 use super::effort::{MAX_EFFORT, excess_size};
 use crate::formula::Hypothesis;
 use crate::formula::statement::{Proposition, Statement};
@@ -88,10 +88,10 @@ pub(in crate::proof) fn prove_proposition(
 }
 
 fn solve(proposition: &Proposition, hypotheses: Vec<&Hypothesis>) -> Result<Node, ProofError> {
-    let problem = Problem::new(proposition, hypotheses)?;
-    certify(&problem, &[]).map_err(|reason| {
+    let sequent = Sequent::new(proposition, hypotheses)?;
+    certify(&sequent, &[]).map_err(|reason| {
         let is_unknown = reason.quantity().is_some_and(|of| of.value.variables().contains(&UNKNOWN));
-        if problem.effort.is_exceeded() || is_unknown { ProofError::TooLarge(MAX_EFFORT) } else { reason }
+        if sequent.effort.is_exceeded() || is_unknown { ProofError::TooLarge(MAX_EFFORT) } else { reason }
     })
 }
 
@@ -107,8 +107,8 @@ pub struct Case {
 }
 
 /// Returns a proof in nested cases.
-fn certify(problem: &Problem, cases: &[Case]) -> Result<Node, ProofError> {
-    let mut search = Search::new(problem, cases)?;
+fn certify(sequent: &Sequent, cases: &[Case]) -> Result<Node, ProofError> {
+    let mut search = Search::new(sequent, cases)?;
     let Err(failure) = search.read(cases) else { return Ok(Node::Leaf(search.proof.steps)) };
     let found = match &failure {
         ProofError::UndecidedBranch(of) => both_cases(&search, cases, search.position, &of.value),
@@ -131,7 +131,7 @@ fn both_cases(search: &Search, cases: &[Case], at: usize, value: &Ratio) -> Resu
     let on = polynomial(&on).ok_or("the quantity of a case")?;
     let nodes = [Sign::POSITIVE, Sign::NON_POSITIVE].into_iter().map(|sign| {
         let case = Case { at, on: on.clone(), sign };
-        certify(search.problem(), &[cases, &[case]].concat())
+        certify(search.sequent(), &[cases, &[case]].concat())
     });
     let nodes = nodes.collect::<Result<Vec<_>, _>>()?;
     let both = <[Node; 2]>::try_from(nodes).map_err(|_| "both cases")?;
@@ -155,22 +155,22 @@ impl Search<'_> {
     fn not_assumed(&self, i: usize, reason: ProofError) -> ProofError {
         match reason {
             ProofError::UndecidedBranch(_) | ProofError::NotExpressed(_) => reason,
-            _ if !self.problem().mentions_variable(i) => reason,
-            _ => ProofError::EndingHypothesis(self.problem().hypotheses[i].value.clone()),
+            _ if !self.sequent().mentions_variable(i) => reason,
+            _ => ProofError::EndingHypothesis(self.sequent().hypotheses[i].value.clone()),
         }
     }
 
     /// Returns the numbers of the hypotheses: intervals before what mentions their symbols, and those on the
     /// variable of a limit last.
     fn order(&self) -> Vec<usize> {
-        let hypotheses = &self.problem().hypotheses;
+        let hypotheses = &self.sequent().hypotheses;
         let bounded: Vec<_> = hypotheses.iter().filter_map(|h| h.interval()).map(|(x, ..)| x).collect();
         let mut order: Vec<_> = (0..hypotheses.len()).collect();
         order.sort_by_key(|i| {
             let (hypothesis, symbols) = (hypotheses[*i], hypotheses[*i].value.symbols());
             let own = hypothesis.interval().map(|(x, ..)| x);
             let waits = bounded.iter().any(|x| symbols.contains(x) && own != Some(*x));
-            (self.problem().mentions_variable(*i), waits, waits && own.is_none())
+            (self.sequent().mentions_variable(*i), waits, waits && own.is_none())
         });
         order
     }

@@ -2,10 +2,10 @@
 
 use super::polynomial::{MAX_VARIABLES, Polynomial, Powers};
 use super::sign::Sign;
-use super::state::State;
+use super::state::Knowledge;
 use super::{Certificate, Checked, Refusal};
 
-impl State<'_> {
+impl Knowledge<'_> {
     /// Returns the sign of a polynomial f with l f = r, for the forms l and r of a certificate.
     pub fn certify(&self, of: &Polynomial, certificate: &Certificate) -> Checked<Sign> {
         let facts = certificate.known.iter().map(|i| Ok(self.facts.get(*i)?.1));
@@ -53,7 +53,7 @@ impl State<'_> {
     fn sign_by_bound(&self, form: &Polynomial, signs: &[Sign], side: Sign) -> Checked<Sign> {
         let (mut bound, mut difference) = (Vec::new(), Sign::ZERO);
         for (powers, number) in form.terms() {
-            let is_factor = |x: &usize| powers[*x] > 0 && self.problem.table.is_unit(*x);
+            let is_factor = |x: &usize| powers[*x] > 0 && self.sequent.table.is_unit(*x);
             let (mut others, mut is_square) = (*powers, true);
             let factors: Vec<_> = (0..MAX_VARIABLES).filter(is_factor).collect();
             for x in &factors {

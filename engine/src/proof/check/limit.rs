@@ -8,7 +8,7 @@
 //! A fact is added by
 //!
 //! - a case: its quantity must not depend on x;
-//! - a hypothesis: if it mentions x, [`State::holds_later`] comes before it;
+//! - a hypothesis: if it mentions x, [`Knowledge::holds_later`] comes before it;
 //! - any other step: it follows, at each x, from facts that are valid there.
 //!
 //! A translated formula has the value that follows from the facts of that time, among them the branch of a minimum. An
@@ -18,17 +18,17 @@
 use super::polynomial::Polynomial;
 use super::quotient::Quotient;
 use super::sign::Sign;
-use super::state::State;
+use super::state::Knowledge;
 use super::table::Atom;
 use super::{Checked, Refusal};
 use crate::formula::Relation;
 use std::cmp::Ordering;
 
-impl State<'_> {
+impl Knowledge<'_> {
     /// Returns the variable of the limit.
     fn variable_of_limit(&self) -> Checked<usize> {
-        let by = self.problem.variable().ok_or(Refusal::Limit)?;
-        self.problem.table.variable(Atom::Own(by))
+        let by = self.sequent.variable().ok_or(Refusal::Limit)?;
+        self.sequent.table.variable(Atom::Own(by))
     }
 
     /// Returns by how much the degree of the numerator in the variable of the limit exceeds that of the denominator,
@@ -39,7 +39,7 @@ impl State<'_> {
         for i in &of.den {
             parts.push(&self.facts.get(*i)?.0);
         }
-        if !parts.iter().all(|part| part.has_only(|y| x == y || !self.problem.varies(y))) {
+        if !parts.iter().all(|part| part.has_only(|y| x == y || !self.sequent.varies(y))) {
             return Err(Refusal::Limit);
         }
         let degrees: i32 = parts.iter().map(|part| i32::from(part.degree(x))).sum();
@@ -61,8 +61,8 @@ impl State<'_> {
 
     /// Checks that a hypothesis that mentions the variable of the limit holds for all sufficiently large values.
     pub fn holds_later(&mut self, i: usize) -> Checked<()> {
-        let hypothesis = self.problem.hypotheses[i];
-        let value = self.value(self.problem.values[i])?;
+        let hypothesis = self.sequent.hypotheses[i];
+        let value = self.value(self.sequent.values[i])?;
         let is_inequality = hypothesis.interval().is_none() && hypothesis.relation != Relation::Zero;
         if is_inequality && self.excess(&value)?.1 == Sign::POSITIVE { Ok(()) } else { Err(Refusal::Limit) }
     }
@@ -70,7 +70,7 @@ impl State<'_> {
     /// Returns the limit of a quotient: 0 if the denominator has the higher degree, and the quotient of the
     /// leading coefficients if the degrees are equal.
     pub fn limit_of(&mut self, of: &Quotient) -> Checked<Quotient> {
-        let mut later = (0..self.problem.hypotheses.len()).filter(|i| self.problem.mentions_variable(*i));
+        let mut later = (0..self.sequent.hypotheses.len()).filter(|i| self.sequent.mentions_variable(*i));
         if !later.all(|i| self.assumed.contains(&i)) {
             return Err(Refusal::Limit);
         }
@@ -100,7 +100,7 @@ impl State<'_> {
     pub fn without_vanishing_terms(&mut self, of: &Polynomial) -> Checked<Polynomial> {
         let (mut rest, x) = (of.clone(), self.variable_of_limit()?);
         for y in (0..self.signs.len()).filter(|y| *y != x && of.degree(*y) > 0) {
-            if self.problem.varies(y) {
+            if self.sequent.varies(y) {
                 let exponent = self.exponent(y).map_err(|_| Refusal::Limit)?;
                 let (excess, sign) = self.excess(&exponent)?;
                 if excess <= 0 || sign != Sign::NEGATIVE {

@@ -3,7 +3,7 @@
 use super::polynomial::Polynomial;
 use super::quotient::{Facts, Quotient};
 use super::sign::Sign;
-use super::table::{Atom, Problem};
+use super::table::{Atom, Sequent};
 use super::{Checked, Law, Refusal, Step};
 use crate::formula::Relation;
 use crate::formula::claim::PRECISION;
@@ -16,9 +16,9 @@ const TWO: usize = 0;
 
 /// The knowledge at a leaf of a proof.
 #[derive(Clone, Debug)]
-pub struct State<'p> {
+pub struct Knowledge<'p> {
     /// The proposition to be proved, with its hypotheses.
-    pub problem: &'p Problem<'p>,
+    pub sequent: &'p Sequent<'p>,
     /// The quantities of known sign.
     pub facts: Facts,
     /// The known signs of variables.
@@ -33,19 +33,19 @@ pub struct State<'p> {
     pub values: FxHashMap<usize, Quotient>,
 }
 
-impl<'p> State<'p> {
+impl<'p> Knowledge<'p> {
     /// Returns the state at the beginning of a leaf under the assumptions of cases. Powers of two and exponentials are
     /// positive. In a limit, the assumptions must not depend on its variable.
-    pub fn new(problem: &'p Problem, cases: &[(Polynomial, Sign)]) -> Checked<Self> {
-        let signs = (0..problem.table.atoms.len()).map(|x| problem.table.sign(x));
-        let facts = Facts { all: Vec::new(), effort: problem.effort.clone() };
+    pub fn new(sequent: &'p Sequent, cases: &[(Polynomial, Sign)]) -> Checked<Self> {
+        let signs = (0..sequent.table.atoms.len()).map(|x| sequent.table.sign(x));
+        let facts = Facts { all: Vec::new(), effort: sequent.effort.clone() };
         let (assumed, divisors, symbols, values) = Default::default();
         let signs = signs.collect();
-        let mut state = State { problem, facts, signs, assumed, divisors, symbols, values };
+        let mut state = Knowledge { sequent, facts, signs, assumed, divisors, symbols, values };
         state.add_fact(Polynomial::constant(2), Sign::POSITIVE)?;
         for (case, sign) in cases {
             state.add_fact(case.clone(), *sign)?;
-            if !case.has_only(|x| !problem.varies(x)) {
+            if !case.has_only(|x| !sequent.varies(x)) {
                 return Err(Refusal::Limit);
             }
         }
@@ -92,14 +92,14 @@ impl<'p> State<'p> {
 
     /// Uses the hypothesis with a number.
     fn assume(&mut self, i: usize) -> Checked<()> {
-        let problem = self.problem;
-        let hypothesis = *problem.hypotheses.get(i).ok_or(Refusal::Unknown)?;
-        if problem.mentions_variable(i) {
+        let sequent = self.sequent;
+        let hypothesis = *sequent.hypotheses.get(i).ok_or(Refusal::Unknown)?;
+        if sequent.mentions_variable(i) {
             self.holds_later(i)?;
         }
         self.assumed.push(i);
-        let Some((x, ends)) = problem.intervals[i] else {
-            let value = self.value(problem.values[i])?;
+        let Some((x, ends)) = sequent.intervals[i] else {
+            let value = self.value(sequent.values[i])?;
             return self.add_quotient(value, hypothesis.relation.into());
         };
         let [lower, upper] = ends.map(|end| self.value(end));
@@ -153,7 +153,7 @@ impl<'p> State<'p> {
                 (self.facts.sum(&size.into(), n, &value)?, Sign::ZERO)
             }
             Law::Order([a, b]) => {
-                let table = &self.problem.table;
+                let table = &self.sequent.table;
                 let (Op::Rounded(x), Op::Rounded(y)) = (table.op(a)?, table.op(b)?) else {
                     return Err(Refusal::Unknown);
                 };
@@ -177,12 +177,12 @@ impl<'p> State<'p> {
 
     /// Returns the variable of an atom as a polynomial.
     fn variable(&self, atom: Atom) -> Checked<Polynomial> {
-        Polynomial::variable(self.problem.table.variable(atom)?)
+        Polynomial::variable(self.sequent.table.variable(atom)?)
     }
 
     /// Returns the exponent of an exponential.
     pub fn exponent(&mut self, x: usize) -> Checked<Quotient> {
-        match self.problem.table.atoms.get(x) {
+        match self.sequent.table.atoms.get(x) {
             Some(Atom::Exponential(of)) => self.value(*of),
             _ => Err(Refusal::Unknown),
         }
@@ -193,7 +193,7 @@ impl<'p> State<'p> {
         if let Some(value) = self.values.get(&formula) {
             return Ok(value.clone());
         }
-        let value = self.value_of_op(self.problem.table.op(formula)?)?;
+        let value = self.value_of_op(self.sequent.table.op(formula)?)?;
         self.values.insert(formula, value.clone());
         Ok(value)
     }
@@ -223,7 +223,7 @@ impl<'p> State<'p> {
                 self.chosen(&a, &a, &Polynomial::constant(0).into())?
             }
             // min(−x, x) is −|x|.
-            Min(a, b) if self.problem.table.op(a)? == Neg(b) => {
+            Min(a, b) if self.sequent.table.op(a)? == Neg(b) => {
                 self.value(b)?;
                 self.variable(Atom::Size(b))?.times(&Polynomial::constant(-1), &self.facts.effort)?.into()
             }
@@ -236,7 +236,7 @@ impl<'p> State<'p> {
                 let one = Polynomial::constant(1);
                 let largest = self.variable(Atom::Own(PRECISION))?.plus_multiple(1, &one, effort)?;
                 let share = self.inverse(&largest.into())?.times(&value, effort)?;
-                let error = self.variable(Atom::Error(self.problem.table.rounding(a).1))?;
+                let error = self.variable(Atom::Error(self.sequent.table.rounding(a).1))?;
                 self.facts.sum(&value, 1, &share.times(&error.into(), effort)?)?
             }
         })
@@ -265,8 +265,8 @@ impl<'p> State<'p> {
     /// Returns the quantities whose signs are to be proved.
     pub fn goals(&mut self) -> Checked<Vec<(Quotient, Sign)>> {
         use Proposition::*;
-        let values = self.problem.goal.iter().map(|of| self.value(*of)).collect::<Checked<Vec<_>>>()?;
-        let (relation, sums) = match (self.problem.proposition, &values[..]) {
+        let values = self.sequent.goal.iter().map(|of| self.value(*of)).collect::<Checked<Vec<_>>>()?;
+        let (relation, sums) = match (self.sequent.proposition, &values[..]) {
             (Sign(relation, _), [of, ..]) => (*relation, vec![(of.clone(), 0, of)]),
             (Within(..), [of, bound]) => {
                 (Relation::NonNegative, [-1, 1].map(|n| (bound.clone(), n, of)).into())

@@ -51,12 +51,12 @@ pub struct Table {
     scaled: Vec<Option<Scaled>>,
 }
 
-/// A proposition to be proved from hypotheses.
+/// A sequent: a proposition to be proved from hypotheses.
 ///
 /// Its atoms are the same at all leaves of its proof. They follow from the proposition and the hypotheses
 /// alone, so a quantity that distinguishes two cases is the same in both.
 #[derive(Debug)]
-pub struct Problem<'a> {
+pub struct Sequent<'a> {
     /// The proposition.
     pub proposition: &'a Proposition,
     /// The hypotheses.
@@ -186,8 +186,8 @@ impl Table {
     }
 }
 
-impl<'a> Problem<'a> {
-    /// Returns the problem with its table of atoms.
+impl<'a> Sequent<'a> {
+    /// Returns the sequent with its table of atoms.
     pub fn new(proposition: &'a Proposition, hypotheses: Vec<&'a Hypothesis>) -> Checked<Self> {
         let derivative = match proposition {
             Proposition::Derivative(of, by, _) => Some(derivative(of, by)?),
@@ -201,7 +201,7 @@ impl<'a> Problem<'a> {
             .collect();
         let goal = proposition.trees().into_iter().chain(&derivative).map(|tree| table.add(tree)).collect();
         table.add_atoms((0..intervals.len()).filter(|i| intervals[*i].is_some()))?;
-        Ok(Problem { proposition, hypotheses, values, intervals, goal, table, effort: Effort::default() })
+        Ok(Sequent { proposition, hypotheses, values, intervals, goal, table, effort: Effort::default() })
     }
 
     /// Returns the symbol that tends to infinity in a limit.

@@ -44,7 +44,7 @@ fn zero(value: impl Into<Tree>) -> Hypothesis {
 }
 
 /// Writes polynomials of the atoms of a goal as formulas.
-struct Page<'a>(Problem<'a>);
+struct Page<'a>(Sequent<'a>);
 
 impl<'a> Page<'a> {
     /// Returns the page for the first goal.
@@ -53,7 +53,7 @@ impl<'a> Page<'a> {
     }
 
     fn of_goal(statement: &'a Statement, goal: &'a Goal) -> Self {
-        Page(Problem::new(&goal.proposition, statement.hypotheses_for(goal.role)).unwrap())
+        Page(Sequent::new(&goal.proposition, statement.hypotheses_for(goal.role)).unwrap())
     }
 
     /// Returns the number of an atom or of a fact of a certificate: z₁ is the first fact, e₁ the

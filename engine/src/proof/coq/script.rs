@@ -5,7 +5,7 @@ use super::print::{ascii, simplified};
 use crate::formula::claim::{PRECISION, SCALES};
 use crate::formula::{Hypothesis, Proposition, Registry, Statement};
 use crate::number::tree::Op;
-use crate::proof::check::{Atom, Certificate, Law, Node, Polynomial, Problem, Step};
+use crate::proof::check::{Atom, Certificate, Law, Node, Polynomial, Sequent, Step};
 use crate::proof::render::ProofPrinter;
 use crate::proof::search::prove_proposition;
 
@@ -18,28 +18,28 @@ pub(super) fn program(
 ) -> Result<String> {
     // Formulas are simplified as they are printed.
     let proposition = proposition.map(&simplified);
-    let problem = Problem::new(&proposition, hypotheses.to_vec())?;
+    let sequent = Sequent::new(&proposition, hypotheses.to_vec())?;
     let node = prove_proposition(&proposition, hypotheses.to_vec()).map_err(|reason| {
         let statement = Statement::new("", proposition.clone()).assuming(hypotheses.iter().copied());
         let reason = ProofPrinter::new(&Registry::default()).describe(&statement, &reason);
         format!("no proof to follow: {reason}")
     })?;
-    let mut writer = Writer { lemma, problem: &problem, given: Vec::new() };
+    let mut writer = Writer { lemma, sequent: &sequent, given: Vec::new() };
     writer.give_hypotheses()?;
     writer.give_values()?;
     let proof = writer.node(&node)?;
-    let atoms = problem.table.atoms.iter().map(|atom| writer.atom(*atom));
+    let atoms = sequent.table.atoms.iter().map(|atom| writer.atom(*atom));
     let atoms = atoms.collect::<Result<Vec<_>>>()?;
     let atoms = if atoms.is_empty() { "@nil R".into() } else { list(&atoms) };
-    let variable = problem.variable().map_or("_".into(), ascii);
+    let variable = sequent.variable().map_or("_".into(), ascii);
     let given: String = writer.given.iter().map(|proof| format!(", {proof}")).collect();
     Ok(format!("(fun {variable} : R => {atoms}) (fun {variable} : R => (I{given}))\n    {proof}"))
 }
 
-/// The proof of a problem in Coq.
+/// The proof of a sequent in Coq.
 struct Writer<'w> {
     lemma: &'w Lemma<'w>,
-    problem: &'w Problem<'w>,
+    sequent: &'w Sequent<'w>,
     /// Proofs of what steps use: the hypotheses, the values of roundings and absolute values, and instances of laws.
     given: Vec<String>,
 }
@@ -47,7 +47,7 @@ struct Writer<'w> {
 impl Writer<'_> {
     /// Writes the formula with a number as an argument.
     fn formula(&self, number: usize) -> Result<String> {
-        Ok(self.lemma.printer.expr(self.problem.table.formula(number)?).argument())
+        Ok(self.lemma.printer.expr(self.sequent.table.formula(number)?).argument())
     }
 
     /// Returns the number that an atom stands for.
@@ -61,7 +61,7 @@ impl Writer<'_> {
             Atom::Size(of) => format!("Rabs {}", self.formula(of)?),
             Atom::Factor(of) => format!("clamp (factor {})", self.formula(of)?),
             Atom::IntervalParameter(i) => {
-                let (x, lower, upper) = self.problem.hypotheses[i].interval().ok_or("no interval")?;
+                let (x, lower, upper) = self.sequent.hypotheses[i].interval().ok_or("no interval")?;
                 let [lower, upper] = [lower, upper].map(|end| self.lemma.printer.expr(end).argument());
                 format!("clamp (parameter {lower} {upper} {})", ascii(x))
             }
@@ -69,10 +69,10 @@ impl Writer<'_> {
     }
 
     fn give_hypotheses(&mut self) -> Result<()> {
-        for (i, hypothesis) in self.problem.hypotheses.iter().enumerate() {
+        for (i, hypothesis) in self.sequent.hypotheses.iter().enumerate() {
             let label = self.lemma.label(hypothesis);
             self.given.push(match label {
-                _ if self.problem.mentions_variable(i) => {
+                _ if self.sequent.mentions_variable(i) => {
                     let value = self.lemma.printer.expr(&hypothesis.value);
                     format!("later ({})", value.relation(hypothesis.relation))
                 }
@@ -86,7 +86,7 @@ impl Writer<'_> {
 
     /// Lists the values of absolute values and of rounded formulas, each after those in it.
     fn give_values(&mut self) -> Result<()> {
-        let table = &self.problem.table;
+        let table = &self.sequent.table;
         for atom in &table.atoms {
             if let Atom::Size(of) = atom {
                 self.given.push(format!("absolute {}", self.formula(*of)?));
@@ -153,7 +153,7 @@ impl Writer<'_> {
             Law::AbsoluteValue(of) => format!("own_factor {}", self.formula(*of)?),
             Law::Signed(of) => format!("own_size {}", self.formula(*of)?),
             Law::Order(rounded) => {
-                let [a, b] = rounded.map(|rounded| match self.problem.table.op(rounded)? {
+                let [a, b] = rounded.map(|rounded| match self.sequent.table.op(rounded)? {
                     Op::Rounded(of) => self.formula(of),
                     _ => Err("an order of other formulas than rounded ones".into()),
                 });
@@ -164,7 +164,7 @@ impl Writer<'_> {
 
     /// Writes the exponent of an exponential as an argument.
     fn exponent(&self, x: usize) -> Result<String> {
-        match self.problem.table.atoms.get(x) {
+        match self.sequent.table.atoms.get(x) {
             Some(Atom::Exponential(of)) => self.formula(*of),
             _ => Err("a law about another quantity than an exponential".into()),
         }

@@ -8,7 +8,7 @@ use crate::formula::symbols::subscripted;
 use crate::number::tree::Op;
 use crate::number::{Exponential, PositivePart, Tree};
 use crate::proof::check::{
-    Atom, Certificate, Law, Node, Polynomial, Problem, Quotient, Refusal, Sign, State, Step,
+    Atom, Certificate, Knowledge, Law, Node, Polynomial, Quotient, Refusal, Sequent, Sign, Step,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,7 +18,7 @@ type Result<T> = std::result::Result<T, Refusal>;
 /// A writer of the proof of a goal.
 pub(super) struct Lines<'a> {
     printer: &'a ProofPrinter<'a>,
-    problem: &'a Problem<'a>,
+    sequent: &'a Sequent<'a>,
     /// The atoms as formulas; e₁, e₂, … are errors, and t₁, t₂, … interval parameters and factors.
     atoms: Vec<Tree>,
 }
@@ -31,24 +31,24 @@ type Phrase = (&'static str, Quotient, String);
 
 impl<'a> Lines<'a> {
     /// Returns a writer for a goal.
-    pub(super) fn new(printer: &'a ProofPrinter<'a>, problem: &'a Problem<'a>) -> Self {
+    pub(super) fn new(printer: &'a ProofPrinter<'a>, sequent: &'a Sequent<'a>) -> Self {
         let (mut errors, mut parameters) = (0.., 0..);
-        let atoms = problem.table.atoms.iter().map(|atom| match atom {
+        let atoms = sequent.table.atoms.iter().map(|atom| match atom {
             Atom::Own(name) => Tree::symbol(name),
             Atom::Error(_) => Tree::symbol(subscripted('e', errors.next().unwrap_or_default())),
             Atom::IntervalParameter(_) | Atom::Factor(_) => {
                 Tree::symbol(subscripted('t', parameters.next().unwrap_or_default()))
             }
-            Atom::Size(of) => formula(problem, *of).abs(),
-            Atom::Exponential(of) => formula(problem, *of).exp(),
+            Atom::Size(of) => formula(sequent, *of).abs(),
+            Atom::Exponential(of) => formula(sequent, *of).exp(),
         });
-        Lines { printer, problem, atoms: atoms.collect() }
+        Lines { printer, sequent, atoms: atoms.collect() }
     }
 
     /// Describes the atoms.
     #[cfg(feature = "serde")]
     pub(super) fn descriptions(&self) -> Vec<String> {
-        let atoms = self.atoms.iter().zip(&self.problem.table.atoms);
+        let atoms = self.atoms.iter().zip(&self.sequent.table.atoms);
         let described = atoms.map(|(tree, atom)| match atom {
             Atom::Own(_) | Atom::Size(_) | Atom::Exponential(_) => self.text(tree),
             Atom::Error(of) => format!("{tree}: {}", self.rounding(*of)),
@@ -76,7 +76,7 @@ impl<'a> Lines<'a> {
     }
 
     fn leaf(&self, steps: &[Step], cases: &[(Polynomial, Sign)]) -> Result<Vec<String>> {
-        let mut state = State::new(self.problem, cases)?;
+        let mut state = Knowledge::new(self.sequent, cases)?;
         let mut added = Vec::with_capacity(steps.len());
         for step in steps {
             added.push((step, state.facts.all.len()));
@@ -94,9 +94,9 @@ impl<'a> Lines<'a> {
     }
 
     /// Returns the quantities that the goal is about.
-    fn goal(&self, state: &mut State) -> Result<Vec<Phrase>> {
-        let values = self.problem.goal.iter().map(|of| state.value(*of)).collect::<Result<Vec<_>>>()?;
-        Ok(match (self.problem.proposition, &values[..]) {
+    fn goal(&self, state: &mut Knowledge) -> Result<Vec<Phrase>> {
+        let values = self.sequent.goal.iter().map(|of| state.value(*of)).collect::<Result<Vec<_>>>()?;
+        Ok(match (self.sequent.proposition, &values[..]) {
             // The line about a numerator of several terms is one about the goal.
             (Proposition::Sign(..), [of, ..]) if of.den.is_empty() && of.num.terms().len() > 1 => Vec::new(),
             (Proposition::Sign(relation, _), [of, ..]) => {
@@ -118,9 +118,9 @@ impl<'a> Lines<'a> {
                 vec![("the derivative is", is.clone(), String::new())]
             }
             (Proposition::Limit(_, by, _), [of, to]) => {
-                let mut atoms = self.problem.table.atoms.iter().enumerate();
+                let mut atoms = self.sequent.table.atoms.iter().enumerate();
                 let decays = atoms.any(|(x, atom)| {
-                    matches!(atom, Atom::Exponential(_)) && of.num.degree(x) > 0 && self.problem.varies(x)
+                    matches!(atom, Atom::Exponential(_)) && of.num.degree(x) > 0 && self.sequent.varies(x)
                 });
                 let decay = if decays { ", as its exponentials decay" } else { "" };
                 let reason = format!(" by its degrees in {by}{decay}");
@@ -132,7 +132,7 @@ impl<'a> Lines<'a> {
 
     /// Returns the line about rounded formulas.
     fn errors(&self) -> Option<String> {
-        let atoms = self.atoms.iter().zip(&self.problem.table.atoms);
+        let atoms = self.atoms.iter().zip(&self.sequent.table.atoms);
         let errors = atoms.filter_map(|(tree, atom)| match atom {
             Atom::Error(of) => Some(format!("{tree} of {}", self.rounding(*of))),
             _ => None,
@@ -143,12 +143,12 @@ impl<'a> Lines<'a> {
     }
 
     /// Returns the values of short minima and positive parts.
-    fn branches(&self, state: &mut State) -> Result<Vec<String>> {
+    fn branches(&self, state: &mut Knowledge) -> Result<Vec<String>> {
         let mut lines = Vec::new();
-        for (i, op) in (0..).map_while(|i| Some((i, self.problem.table.op(i).ok()?))) {
+        for (i, op) in (0..).map_while(|i| Some((i, self.sequent.table.op(i).ok()?))) {
             let (first, second) = match op {
                 Op::PositivePart(of) => (of, "0".into()),
-                Op::Min(a, b) if self.problem.table.op(a) != Ok(Op::Neg(b)) => (a, self.formula(b)),
+                Op::Min(a, b) if self.sequent.table.op(a) != Ok(Op::Neg(b)) => (a, self.formula(b)),
                 _ => continue,
             };
             if state.values.contains_key(&i) {
@@ -162,13 +162,13 @@ impl<'a> Lines<'a> {
     }
 
     /// Returns the line about a step that adds the fact with this number.
-    fn step(&self, step: &Step, state: &State, fact: usize, names: &Names) -> Option<String> {
+    fn step(&self, step: &Step, state: &Knowledge, fact: usize, names: &Names) -> Option<String> {
         let reason = match step {
             Step::Divisor(_) => return None,
-            Step::Assume(i) => match self.problem.table.variable(Atom::IntervalParameter(*i)) {
+            Step::Assume(i) => match self.sequent.table.variable(Atom::IntervalParameter(*i)) {
                 Ok(t) => {
                     let definition =
-                        self.printer.parameter(&self.text(&self.atoms[t]), self.problem.hypotheses[*i])?;
+                        self.printer.parameter(&self.text(&self.atoms[t]), self.sequent.hypotheses[*i])?;
                     return Some(format!("by {}: {definition}", self.hypothesis(*i)));
                 }
                 Err(_) => format!(" by {}", self.hypothesis(*i)),
@@ -191,7 +191,7 @@ impl<'a> Lines<'a> {
             Law::AboveTangent(_) => "exp(x) > 1 + x for x ≠ 0".into(),
             Law::BelowPole(_) => "(2 − x) exp(x) < 2 + x for x > 0".into(),
             Law::AbsoluteValue(of) => {
-                let t = self.problem.table.variable(Atom::Factor(*of)).ok()?;
+                let t = self.sequent.table.variable(Atom::Factor(*of)).ok()?;
                 self.printer.multiple_of_size(&self.formula(*of), &self.text(&self.atoms[t]))
             }
             Law::Signed(_) => "|x| is x or −x".into(),
@@ -216,7 +216,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Formats a quotient, or its shape if it is long.
-    fn quotient(&self, of: &Quotient, state: &State, names: &Names) -> String {
+    fn quotient(&self, of: &Quotient, state: &Knowledge, names: &Names) -> String {
         let num = self.part(&of.num, state, names);
         let den = of.den.iter().map(|i| self.part(&state.facts.get(*i).ok()?.0, state, names));
         let quotient = num.and_then(|num| den.into_iter().try_fold(num, |num, factor| Some(num / factor?)));
@@ -227,7 +227,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Returns the name of a fact about a polynomial, otherwise the polynomial as a formula, if it is short.
-    fn part(&self, of: &Polynomial, state: &State, names: &Names) -> Option<Tree> {
+    fn part(&self, of: &Polynomial, state: &Knowledge, names: &Names) -> Option<Tree> {
         let name = state.facts.all.iter().position(|(known, _)| known == of).and_then(|i| names.get(&i));
         name.cloned().or_else(|| self.form(of, &[]))
     }
@@ -237,15 +237,15 @@ impl<'a> Lines<'a> {
     }
 
     fn rounding(&self, of: usize) -> String {
-        self.printer.rounding(&formula(self.problem, of))
+        self.printer.rounding(&formula(self.sequent, of))
     }
 
     fn formula(&self, of: usize) -> String {
-        self.text(&formula(self.problem, of))
+        self.text(&formula(self.sequent, of))
     }
 
     fn hypothesis(&self, i: usize) -> String {
-        self.printer.registry.format_hypothesis(self.problem.hypotheses[i])
+        self.printer.registry.format_hypothesis(self.sequent.hypotheses[i])
     }
 
     /// Formats a polynomial of atoms and, after these, known quantities, or its shape if it is long.
@@ -261,13 +261,13 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// Returns a formula of a problem.
-fn formula(problem: &Problem, of: usize) -> Tree {
-    problem.table.formula(of).map_or_else(|_| Tree::from(0), Tree::clone)
+/// Returns a formula of a sequent.
+fn formula(sequent: &Sequent, of: usize) -> Tree {
+    sequent.table.formula(of).map_or_else(|_| Tree::from(0), Tree::clone)
 }
 
 /// Returns the names of facts: those that certificates refer to, assumptions of cases, and the goal.
-fn names(state: &State, steps: &[Step], cases: usize, goal: &[Phrase]) -> Names {
+fn names(state: &Knowledge, steps: &[Step], cases: usize, goal: &[Phrase]) -> Names {
     let mut named = BTreeSet::from_iter(1..=cases);
     for step in steps {
         if let Step::Show(_, certificate) = step {

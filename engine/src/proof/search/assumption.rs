@@ -1,7 +1,7 @@
 //! The assumptions of a search, and signs under them.
 
 use super::algebra::{Monomial, Poly, Ratio};
-use super::rules::Certificate;
+use super::rules::SignCertificate;
 use crate::formula::Hypothesis;
 use crate::proof::check::Sign;
 
@@ -70,9 +70,9 @@ pub struct SignedRatio {
     /// The multiple of an assumed quantity that is subtracted first, if any.
     pub subtracted: Option<Box<Multiple>>,
     /// The sign of the numerator of the quotient or, after a subtraction, of the difference.
-    pub num: Certificate,
+    pub num: SignCertificate,
     /// The strict sign of the denominator.
-    pub den: Certificate,
+    pub den: SignCertificate,
 }
 
 impl SignedRatio {

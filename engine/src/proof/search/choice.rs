@@ -1,7 +1,7 @@
 //! The choice of rules for signs.
 
 use super::algebra::{Poly, Ratio};
-use super::rules::{Certificate, SignEnv};
+use super::rules::{SignCertificate, SignEnv};
 use crate::proof::check::Sign;
 use oorandom::Rand32;
 
@@ -9,7 +9,7 @@ use oorandom::Rand32;
 const MAX_ENDS: u32 = 6;
 
 /// Returns the sign of a polynomial if the rules find one.
-pub fn sign(of: &Poly, known: &SignEnv) -> Option<Certificate> {
+pub fn sign(of: &Poly, known: &SignEnv) -> Option<SignCertificate> {
     known.spend(of, &Poly::zero())?;
     by_terms(of, known).or_else(|| {
         let variables = of.variables();
@@ -18,7 +18,7 @@ pub fn sign(of: &Poly, known: &SignEnv) -> Option<Certificate> {
         } else if variables.iter().any(|x| known.is_unit(*x)) {
             by_ends(of, known, MAX_ENDS)
         } else {
-            variables.into_iter().find_map(|x| Certificate::square(of, x, known))
+            variables.into_iter().find_map(|x| SignCertificate::square(of, x, known))
         }
     })
 }
@@ -52,22 +52,22 @@ fn random_value(random: &mut Rand32, x: usize, known: &SignEnv) -> f64 {
 }
 
 /// Returns the sign by rules 1 and 3.
-fn by_terms(of: &Poly, known: &SignEnv) -> Option<Certificate> {
-    Certificate::termwise(of, known).or_else(|| Certificate::triangle_inequality(of, known))
+fn by_terms(of: &Poly, known: &SignEnv) -> Option<SignCertificate> {
+    SignCertificate::termwise(of, known).or_else(|| SignCertificate::triangle_inequality(of, known))
 }
 
 /// Returns the sign by rules 1, 3 and 4, the last one applied to at most `symbols` symbols.
-fn bounded(of: &Poly, known: &SignEnv, symbols: u32) -> Option<Certificate> {
+fn bounded(of: &Poly, known: &SignEnv, symbols: u32) -> Option<SignCertificate> {
     known.spend(of, &Poly::zero())?;
     by_terms(of, known).or_else(|| by_ends(of, known, symbols))
 }
 
 /// Returns the sign by rule 4, and the others inside it.
-fn by_ends(of: &Poly, known: &SignEnv, symbols: u32) -> Option<Certificate> {
+fn by_ends(of: &Poly, known: &SignEnv, symbols: u32) -> Option<SignCertificate> {
     let symbols = symbols.checked_sub(1)?;
     let units = of.variables().into_iter().filter(|x| known.is_unit(*x));
     let x = units.min_by_key(|x| of.degree(*x))?;
-    Certificate::endpoints(of, x, |of| bounded(of, known, symbols))
+    SignCertificate::endpoints(of, x, |of| bounded(of, known, symbols))
 }
 
 /// Returns the factors m for which a symbol cancels in `value` − m `other`: an error or interval parameter

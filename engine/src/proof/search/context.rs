@@ -9,7 +9,7 @@ use super::symbol::Symbol;
 use crate::formula::Hypothesis;
 use crate::formula::claim::PRECISION;
 use crate::number::{Exponential, Tree};
-use crate::proof::check::{Atom, Polynomial, Problem, Quotient, Sign, State};
+use crate::proof::check::{Atom, Knowledge, Polynomial, Quotient, Sequent, Sign};
 use std::collections::BTreeMap;
 use std::iter;
 
@@ -36,12 +36,12 @@ pub(in crate::proof) struct Context {
 }
 
 impl Context {
-    /// Creates a context with the intervals of the problem and the signs that its atoms have by definition.
-    pub(in crate::proof) fn new(problem: &Problem) -> Self {
+    /// Creates a context with the intervals of the sequent and the signs that its atoms have by definition.
+    pub(in crate::proof) fn new(sequent: &Sequent) -> Self {
         let (assumptions, symbols, exponentials, roundings, substitutions) = Default::default();
-        let table = &problem.table;
+        let table = &sequent.table;
         let units = (0..FIRST_SLACK).filter(|x| table.is_unit(*x));
-        let signs = SignEnv::new(units, problem.effort.clone());
+        let signs = SignEnv::new(units, sequent.effort.clone());
         let precision = table.variable(Atom::Own(PRECISION)).map_or_else(|_| Poly::zero(), Poly::variable);
         let largest = precision + Poly::constant(1);
         let mut context =
@@ -55,7 +55,7 @@ impl Context {
                 }
                 Atom::IntervalParameter(i) => {
                     context.assumptions.push(Assumption {
-                        hypothesis: Some(problem.hypotheses[*i].clone()),
+                        hypothesis: Some(sequent.hypotheses[*i].clone()),
                         value: Poly::variable(x).into(),
                         fact: None,
                         usage: AssumptionUse::Interval(x),
@@ -113,7 +113,7 @@ impl Context {
     }
 
     /// Returns a quotient of the checker, without those factors of the denominator that divide the numerator.
-    pub fn ratio(&self, of: &Quotient, state: &State) -> Ratio {
+    pub fn ratio(&self, of: &Quotient, state: &Knowledge) -> Ratio {
         let (mut num, mut den) = (poly(&of.num), Poly::constant(1));
         for (fact, _) in of.den.iter().filter_map(|i| state.facts.get(*i).ok()) {
             let factor = poly(fact);
@@ -131,7 +131,7 @@ impl Context {
     }
 
     /// Returns a quotient of the checker, reduced.
-    pub fn reduced_quotient(&self, of: &Quotient, state: &State) -> Ratio {
+    pub fn reduced_quotient(&self, of: &Quotient, state: &Knowledge) -> Ratio {
         self.reduce(&self.ratio(of, state))
     }
 

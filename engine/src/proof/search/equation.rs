@@ -77,7 +77,7 @@ impl Finder<'_, '_> {
     /// Returns the equations among the assumptions.
     fn equations(&mut self) -> Result<Vec<Equation>> {
         let guide = self.guide;
-        let atoms = self.proof.state.problem.table.atoms.iter();
+        let atoms = self.proof.state.sequent.table.atoms.iter();
         let symbols = atoms.filter(|atom| matches!(atom, Atom::Own(_))).count();
         let mut equations = Vec::new();
         for Assumption { usage, fact, .. } in &guide.assumptions {

@@ -6,7 +6,7 @@ use super::assumption::{AssumedFact, AssumptionUse, SignedRatio};
 use super::context::Context;
 use super::dictionary::{poly, polynomial};
 use super::symbol::Symbol;
-use crate::proof::check::{Certificate, MAX_VARIABLES, Polynomial, State, Step};
+use crate::proof::check::{Certificate, Knowledge, MAX_VARIABLES, Polynomial, Step};
 
 /// Maximum nesting of lemmas.
 const MAX_DEPTH: u32 = 4;
@@ -16,7 +16,7 @@ pub type Result<T> = std::result::Result<T, ProofError>;
 
 /// The steps so far, and the knowledge of the checker after them.
 pub struct Steps<'a> {
-    pub state: State<'a>,
+    pub state: Knowledge<'a>,
     pub steps: Vec<Step>,
 }
 
@@ -63,7 +63,7 @@ impl<'f, 'p> Finder<'f, 'p> {
             self.facts.push(fact);
             self.facts.len() - 1
         });
-        let first = self.proof.state.problem.table.atoms.len();
+        let first = self.proof.state.sequent.table.atoms.len();
         Poly::variable((first + i).min(MAX_VARIABLES - 1))
     }
 

@@ -5,7 +5,7 @@ use super::assumption::SignedRatio;
 use super::choice;
 use super::dictionary::{integral, polynomial};
 use super::finder::{Finder, Result};
-use super::rules::{Certificate, Rule};
+use super::rules::{Rule, SignCertificate};
 use crate::proof::check::Step;
 
 /// Forms l and r with l f = r.
@@ -72,7 +72,7 @@ impl Finder<'_, '_> {
         Ok((rest, product))
     }
 
-    fn forms(&mut self, of: &Certificate) -> Result<Forms> {
+    fn forms(&mut self, of: &SignCertificate) -> Result<Forms> {
         match of.rule() {
             Rule::Terms => Ok((Poly::constant(1), of.of().clone())),
             Rule::Square { leading, root, rest } => self.square(leading, root, rest),
@@ -95,7 +95,7 @@ impl Finder<'_, '_> {
     }
 
     /// Returns 2ⁿ f = Σ bᵢ (1 + x)ⁱ (1 − x)ⁿ⁻ⁱ.
-    fn ends(&mut self, x: usize, at: &[Certificate]) -> Result<Forms> {
+    fn ends(&mut self, x: usize, at: &[SignCertificate]) -> Result<Forms> {
         let forms: Vec<Forms> = at.iter().map(|end| self.forms(end)).collect::<Result<_>>()?;
         let (one, x) = (Poly::constant(1), Poly::variable(x));
         let lower = self.lemma(&(&one + &x))?;

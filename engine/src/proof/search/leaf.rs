@@ -11,7 +11,7 @@ use crate::formula::claim::PRECISION;
 use crate::formula::statement::Proposition;
 use crate::number::Tree;
 use crate::number::tree::Op;
-use crate::proof::check::{Atom, Law, Polynomial, Problem, Quotient, Refusal, Sign, State, Step};
+use crate::proof::check::{Atom, Knowledge, Law, Polynomial, Quotient, Refusal, Sequent, Sign, Step};
 use std::collections::VecDeque;
 use std::iter;
 
@@ -46,15 +46,15 @@ enum Use {
 
 impl<'a> Search<'a> {
     /// Returns a search under the assumptions of cases.
-    pub fn new(problem: &'a Problem<'a>, cases: &[Case]) -> Result<Self> {
+    pub fn new(sequent: &'a Sequent<'a>, cases: &[Case]) -> Result<Self> {
         let cases: Vec<_> = cases.iter().map(|case| (case.on.clone(), case.sign)).collect();
-        let proof = Steps { state: State::new(problem, &cases)?, steps: Vec::new() };
+        let proof = Steps { state: Knowledge::new(sequent, &cases)?, steps: Vec::new() };
         let (sizes, position, exponentials, laws, met) = Default::default();
-        Ok(Search { known: Context::new(problem), proof, sizes, position, exponentials, laws, met })
+        Ok(Search { known: Context::new(sequent), proof, sizes, position, exponentials, laws, met })
     }
 
-    pub fn problem(&self) -> &'a Problem<'a> {
-        self.proof.state.problem
+    pub fn sequent(&self) -> &'a Sequent<'a> {
+        self.proof.state.sequent
     }
 
     /// Uses the assumptions of cases before a hypothesis.
@@ -68,15 +68,15 @@ impl<'a> Search<'a> {
 
     /// Assumes the hypothesis with a number.
     pub fn assume(&mut self, i: usize) -> Result<()> {
-        let problem = self.problem();
-        let hypothesis = problem.hypotheses[i];
-        if let Some((_, ends)) = problem.intervals[i] {
+        let sequent = self.sequent();
+        let hypothesis = sequent.hypotheses[i];
+        if let Some((_, ends)) = sequent.intervals[i] {
             ends.into_iter().try_for_each(|end| self.value(end).map(|_| ()))?;
             self.proof.add(Step::Assume(i))?;
             return Ok(());
         }
-        let of = self.value(problem.values[i])?;
-        if problem.mentions_variable(i) {
+        let of = self.value(sequent.values[i])?;
+        if sequent.mentions_variable(i) {
             self.show_leading(&of)?;
         }
         let fact = self.proof.add(Step::Assume(i))?;
@@ -89,7 +89,7 @@ impl<'a> Search<'a> {
     /// Shows the orders of the rounded formulas inside two formulas, operation by operation.
     fn orders(&mut self, a: usize, b: usize) -> Result<()> {
         use Op::*;
-        let table = &self.problem().table;
+        let table = &self.sequent().table;
         match (table.op(a)?, table.op(b)?) {
             _ if a == b => Ok(()),
             (Rounded(c), Rounded(d)) => {
@@ -121,7 +121,7 @@ impl<'a> Search<'a> {
 
     /// Shows the goal.
     pub fn goal(&mut self) -> Result<()> {
-        let Problem { proposition, goal, table, .. } = self.problem();
+        let Sequent { proposition, goal, table, .. } = self.sequent();
         if let Proposition::Sign(Relation::NonNegative, _) = proposition
             && let Op::Sub(a, b) = table.op(goal[0])?
             && let (Op::Rounded(_), Op::Rounded(_)) = (table.op(a)?, table.op(b)?)
@@ -165,7 +165,7 @@ impl<'a> Search<'a> {
     /// Returns the value of a formula, after the steps that its translation requires.
     pub fn value(&mut self, formula: usize) -> Result<Quotient> {
         if !self.proof.state.values.contains_key(&formula) {
-            let op = self.problem().table.op(formula)?;
+            let op = self.sequent().table.op(formula)?;
             op.operands().try_for_each(|operand| self.value(*operand).map(|_| ()))?;
             match op {
                 Op::Div(_, by) => self.divisor(by)?,
@@ -173,7 +173,7 @@ impl<'a> Search<'a> {
                     let deciding = self.value(of)?;
                     self.show(&deciding, Use::Branch)?;
                 }
-                Op::Min(a, b) if self.problem().table.op(a) == Ok(Op::Neg(b)) => self.absolute_value(b)?,
+                Op::Min(a, b) if self.sequent().table.op(a) == Ok(Op::Neg(b)) => self.absolute_value(b)?,
                 Op::Min(a, b) => {
                     let deciding = self.difference(b, a)?;
                     self.show(&deciding, Use::Branch)?;
@@ -266,7 +266,7 @@ impl<'a> Search<'a> {
         if self.proof.state.inverse(&of).is_ok() {
             return Ok(());
         }
-        let tree = self.problem().table.formula(formula)?.clone();
+        let tree = self.sequent().table.formula(formula)?.clone();
         self.factors(&of.num).map_err(|reason| self.zero_divisor(reason, &of, tree))
     }
 
@@ -323,7 +323,7 @@ impl<'a> Search<'a> {
 
     /// Adds the laws of an exponential and its reciprocal to those that may be listed.
     fn exponential(&mut self, exponent: usize) -> Result<()> {
-        let table = &self.problem().table;
+        let table = &self.sequent().table;
         let mut ops = (0..).map_while(|of| table.op(of).ok());
         let reciprocal = ops.position(|op| op == Op::Neg(exponent)).ok_or(Refusal::Unknown)?;
         let pair = [exponent, reciprocal].map(|of| table.variable(Atom::Exponential(of)));
@@ -349,7 +349,7 @@ impl<'a> Search<'a> {
 
     /// Shows what the absolute value of a formula is: an atom, or the formula with a sign.
     fn absolute_value(&mut self, of: usize) -> Result<()> {
-        let table = &self.problem().table;
+        let table = &self.sequent().table;
         let (size, factor) = (table.variable(Atom::Size(of))?, table.variable(Atom::Factor(of))?);
         if self.met.contains(&size) {
             return Ok(());

@@ -14,7 +14,7 @@ impl Search<'_> {
     /// Shows what the limit of a quantity requires.
     pub fn limit(&mut self, of: &Quotient) -> Result<()> {
         for y in self.exponentials.clone() {
-            if of.num.degree(y) > 0 && self.problem().varies(y) {
+            if of.num.degree(y) > 0 && self.sequent().varies(y) {
                 let exponent = self.proof.state.exponent(y)?;
                 self.show_leading(&exponent)?;
             }

@@ -1,6 +1,6 @@
 //! Rules for the sign of a polynomial for all values of its symbols.
 //!
-//! A [`Certificate`] is made by one of four rules. The [forms](super::form) of the checker's certificates
+//! A [`SignCertificate`] is made by one of four rules. The [forms](super::form) of the checker's certificates
 //! follow from it.
 //!
 //! 1. **Terms.** All terms have the same sign, which follows from the known signs of symbols; even powers of
@@ -66,7 +66,7 @@ impl SignEnv {
 
 /// A proof that a polynomial has a sign, for the known signs of symbols.
 #[derive(Clone, Debug)]
-pub struct Certificate {
+pub struct SignCertificate {
     of: Poly,
     sign: Sign,
     rule: Rule,
@@ -91,11 +91,11 @@ pub enum Rule {
         /// The variable x.
         x: usize,
         /// The signs of the coefficients, from that at −1 to that at 1.
-        at: Box<[Certificate]>,
+        at: Box<[SignCertificate]>,
     },
 }
 
-impl Certificate {
+impl SignCertificate {
     /// Returns the polynomial.
     pub fn of(&self) -> &Poly {
         &self.of
@@ -116,19 +116,19 @@ impl Certificate {
         let sign = of.terms().fold(Sign::ZERO, |sum, (monomial, coefficient)| {
             sum.plus(sign_of_number(coefficient).times(sign_of_monomial(monomial, known)))
         });
-        (sign != Sign::ANY).then(|| Certificate { of: of.clone(), sign, rule: Rule::Terms })
+        (sign != Sign::ANY).then(|| SignCertificate { of: of.clone(), sign, rule: Rule::Terms })
     }
 
     /// Applies rule 2 to f = a x² + b x + c: 4 a f = (2 a x + b)² + (4 a c − b²).
     pub fn square(of: &Poly, x: usize, known: &SignEnv) -> Option<Self> {
         let [c, b, a] = of.coefficients(x)?;
-        let leading = Certificate::termwise(&a, known).filter(|a| a.sign.is_strict())?;
+        let leading = SignCertificate::termwise(&a, known).filter(|a| a.sign.is_strict())?;
         known.spend(&a, &c).and(known.spend(&b, &b))?;
         let rest = Poly::constant(4) * &a * c - &b * &b;
-        let sign = Sign::NON_NEGATIVE.plus(Certificate::termwise(&rest, known)?.sign).times(leading.sign);
+        let sign = Sign::NON_NEGATIVE.plus(SignCertificate::termwise(&rest, known)?.sign).times(leading.sign);
         let root = Poly::constant(2) * &a * Poly::variable(x) + b;
         let rule = Rule::Square { leading: a, root, rest };
-        (sign != Sign::ANY).then(|| Certificate { of: of.clone(), sign, rule })
+        (sign != Sign::ANY).then(|| SignCertificate { of: of.clone(), sign, rule })
     }
 
     /// Applies rule 3.
@@ -139,8 +139,8 @@ impl Certificate {
         let others: Poly = others.into_iter().map(|(m, q)| (m.clone(), q.clone())).collect();
         [(Sign::NON_NEGATIVE, &others - &sizes), (Sign::NON_POSITIVE, others + sizes)].iter().find_map(
             |(side, bound)| {
-                let sign = Certificate::termwise(bound, known)?.sign.plus(*side);
-                (sign != Sign::ANY).then(|| Certificate { of: of.clone(), sign, rule: Rule::Terms })
+                let sign = SignCertificate::termwise(bound, known)?.sign.plus(*side);
+                (sign != Sign::ANY).then(|| SignCertificate { of: of.clone(), sign, rule: Rule::Terms })
             },
         )
     }
@@ -152,7 +152,7 @@ impl Certificate {
         let signs = [Sign::POSITIVE, Sign::NEGATIVE, Sign::NON_NEGATIVE, Sign::NON_POSITIVE];
         let sign = signs.into_iter().find(|sign| at.iter().all(|c| c.sign.implies(*sign)))?;
         let rule = Rule::Endpoints { x, at: at.into() };
-        Some(Certificate { of: of.clone(), sign, rule })
+        Some(SignCertificate { of: of.clone(), sign, rule })
     }
 }
 
@@ -207,7 +207,7 @@ mod tests {
         let u = 0;
         let x = Poly::variable(u);
         let of = Poly::constant(3) * &x * &x + Poly::constant(2) * &x + Poly::constant(5);
-        let found = Certificate::square(&of, u, &SignEnv::new([], Effort::default())).unwrap();
+        let found = SignCertificate::square(&of, u, &SignEnv::new([], Effort::default())).unwrap();
         let Rule::Square { leading, root, rest } = found.rule() else { panic!("another rule") };
         assert_eq!(Poly::constant(4) * leading * of, root * root + rest);
     }
@@ -224,8 +224,8 @@ mod tests {
             assert_eq!(coefficient, expected, "of power {i}");
         }
         let known = SignEnv::new([0, 1], Effort::default());
-        let terms = |of: &Poly| Certificate::termwise(of, &known);
-        let sign = |of: &Poly| Certificate::endpoints(of, x, terms).map(|found| found.sign());
+        let terms = |of: &Poly| SignCertificate::termwise(of, &known);
+        let sign = |of: &Poly| SignCertificate::endpoints(of, x, terms).map(|found| found.sign());
         assert_eq!([sign(&of), sign(&-of)], [Some(Sign::NON_NEGATIVE), Some(Sign::NON_POSITIVE)]);
     }
 }
