@@ -44,9 +44,10 @@ fn has_both_signs(of: &Poly, known: &SignEnv) -> bool {
 /// Returns a random value of a symbol, with its known sign.
 fn random_value(random: &mut Rand32, x: usize, known: &SignEnv) -> f64 {
     let size = if known.is_unit(x) { 1.0 } else { 2.0_f64.powi(random.rand_range(0..13) as i32 - 6) };
-    let is_negative = match known.get(x) {
-        sign if sign == Sign::ANY || known.is_unit(x) => random.rand_range(0..2) == 0,
-        sign => sign.implies(Sign::NON_POSITIVE),
+    let is_free = known.get(x) == Sign::ANY || known.is_unit(x);
+    let is_negative = match is_free {
+        true => random.rand_range(0..2) == 0,
+        false => known.get(x).implies(Sign::NON_POSITIVE),
     };
     if is_negative { -size } else { size }
 }
