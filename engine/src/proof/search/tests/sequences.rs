@@ -91,6 +91,16 @@ fn sequences_start_neither_from_a_member_nor_from_a_computed_quantity() {
     }
 }
 
+/// A bound is a formula of q, so a symbol with the name of a member in it would be another quantity.
+#[test]
+fn bounds_do_not_depend_on_a_member() {
+    let half = || int(1) / int(2);
+    let halves = perturbed_recursion("halves", half()).start(1).step(|x| x * half());
+    let bounded = |by: Tree| halves.clone().bounding(|x| x.clone(), by).near(0, x("q"));
+    assert!(prove(&bounded(x("q")).assuming([&not_below_zero(x("q"))])).is_ok());
+    assert!(matches!(prove(&bounded(x("x₁"))), Err(ProofError::Premise(Premise::ReservedName("x₁")))));
+}
+
 #[test]
 fn hypotheses_on_a_member_are_proved_for_each_member() {
     assert!(prove_drift(&[]).is_ok());
