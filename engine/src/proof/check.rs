@@ -52,7 +52,7 @@ mod tests;
 
 pub use polynomial::{MAX_VARIABLES, Polynomial, Powers};
 pub use premises::Premise;
-pub(in crate::proof) use premises::check_premises;
+pub(in crate::proof) use premises::{check_premises, check_size};
 pub(in crate::proof) use quotient::Quotient;
 pub use sign::Sign;
 pub(in crate::proof) use state::Knowledge;

@@ -35,7 +35,7 @@ mod tests;
 pub use self::error::{ProofError, Quantity};
 
 use super::check::{self, Node, Polynomial, Premise, Proof, Sequent, Sign, check};
-use super::effort::{MAX_EFFORT, excess_size};
+use super::effort::MAX_EFFORT;
 use crate::formula::Hypothesis;
 use crate::formula::statement::{Proposition, Statement};
 use crate::number::Tree;
@@ -78,9 +78,7 @@ pub(in crate::proof) fn prove_proposition(
     hypotheses: Vec<&Hypothesis>,
 ) -> Result<Node, ProofError> {
     let trees: Vec<&Tree> = hypotheses.iter().map(|h| &h.value).chain(proposition.trees()).collect();
-    if let Some((quantity, most)) = excess_size(trees.iter().copied()) {
-        return Err(Premise::TooLarge(quantity, most).into());
-    }
+    check::check_size(trees.iter().copied())?;
     if proposition.variable().is_some() && trees.into_iter().any(Tree::contains_rounding) {
         return Err(Premise::Discontinuous.into());
     }
@@ -164,11 +162,11 @@ impl Search<'_> {
     /// variable of a limit last.
     fn order(&self) -> Vec<usize> {
         let hypotheses = &self.sequent().hypotheses;
-        let bounded: Vec<_> = hypotheses.iter().filter_map(|h| h.interval()).map(|(x, ..)| x).collect();
+        let intervals = &self.sequent().intervals;
+        let bounded: Vec<_> = intervals.iter().flatten().map(|(x, _)| *x).collect();
         let mut order: Vec<_> = (0..hypotheses.len()).collect();
         order.sort_by_key(|i| {
-            let (hypothesis, symbols) = (hypotheses[*i], hypotheses[*i].value.symbols());
-            let own = hypothesis.interval().map(|(x, ..)| x);
+            let (symbols, own) = (hypotheses[*i].value.symbols(), intervals[*i].map(|(x, _)| x));
             let waits = bounded.iter().any(|x| symbols.contains(x) && own != Some(*x));
             (self.sequent().mentions_variable(*i), waits, waits && own.is_none())
         });

@@ -83,10 +83,5 @@ impl Knowledge<'_> {
 fn sign_of_term(powers: &Powers, number: i128, signs: &[Sign]) -> Sign {
     let number = if number < 0 { Sign::NEGATIVE } else { Sign::POSITIVE };
     let factors = powers.iter().zip(signs).filter(|(n, _)| **n > 0);
-    let signs = factors.map(|(n, sign)| match (n % 2, *sign) {
-        (1, sign) => sign,
-        (_, Sign::ANY) => Sign::NON_NEGATIVE,
-        (_, sign) => sign.times(sign),
-    });
-    signs.fold(number, Sign::times)
+    factors.fold(number, |product, (n, sign)| product.times(sign.power(*n)))
 }

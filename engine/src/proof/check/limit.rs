@@ -63,7 +63,7 @@ impl Knowledge<'_> {
     pub fn holds_later(&mut self, i: usize) -> Checked<()> {
         let hypothesis = self.sequent.hypotheses[i];
         let value = self.value(self.sequent.values[i])?;
-        let is_inequality = hypothesis.interval().is_none() && hypothesis.relation != Relation::Zero;
+        let is_inequality = self.sequent.intervals[i].is_none() && hypothesis.relation != Relation::Zero;
         if is_inequality && self.excess(&value)?.1 == Sign::POSITIVE { Ok(()) } else { Err(Refusal::Limit) }
     }
 

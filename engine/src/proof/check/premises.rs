@@ -31,9 +31,7 @@ pub enum Premise {
 /// # Errors
 /// Returns the premise that does not hold.
 pub fn check_premises(statement: &Statement) -> Result<(), Premise> {
-    if let Some((quantity, most)) = excess_size(statement.trees()) {
-        return Err(Premise::TooLarge(quantity, most));
-    }
+    check_size(statement.trees())?;
     if statement.goals().is_empty() {
         return Err(Premise::NoGoals);
     }
@@ -46,6 +44,14 @@ pub fn check_premises(statement: &Statement) -> Result<(), Premise> {
         return Err(Premise::Discontinuous);
     }
     Ok(())
+}
+
+/// Checks the size and depth of formulas.
+///
+/// # Errors
+/// Returns [`Premise::TooLarge`] if one of them exceeds its maximum.
+pub fn check_size<'t>(trees: impl Iterator<Item = &'t Tree> + Clone) -> Result<(), Premise> {
+    excess_size(trees).map_or(Ok(()), |(quantity, most)| Err(Premise::TooLarge(quantity, most)))
 }
 
 /// Rejects a statement that uses a reserved name.

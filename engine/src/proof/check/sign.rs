@@ -49,6 +49,15 @@ impl Sign {
         Sign { low: products.into_iter().fold(1, i8::min), high: products.into_iter().fold(-1, i8::max) }
     }
 
+    /// Returns the sign of xⁿ for n > 0.
+    pub fn power(self, n: u8) -> Self {
+        match self {
+            _ if n % 2 == 1 => self,
+            Sign::ANY => Sign::NON_NEGATIVE,
+            _ => self.times(self),
+        }
+    }
+
     /// Returns the sign of x + y. Terms of both signs may have a sum of any sign; otherwise the stricter bound holds.
     pub fn plus(self, Sign { low, high }: Self) -> Self {
         let low = if self.low.min(low) < 0 { -1 } else { self.low.max(low) };
@@ -90,6 +99,9 @@ mod tests {
             assert_eq!(s.implies(*t), of.iter().all(|x| other.contains(x)), "{s:?} {t:?}");
         }
         assert!(signs.iter().all(|(s, of)| s.is_strict() != of.contains(&0)));
+        for (n, (s, of)) in (1..=4).flat_map(|n| signs.iter().map(move |s| (n, s))) {
+            assert_eq!(s.power(n), strongest(of.iter().map(|x| x.pow(n.into())).collect()), "{s:?} {n}");
+        }
         assert!(signs.iter().all(|(s, _)| s.negated() == s.times(Sign::NEGATIVE)));
     }
 }

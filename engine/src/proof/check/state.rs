@@ -11,7 +11,7 @@ use crate::formula::statement::Proposition;
 use crate::number::tree::Op;
 use rustc_hash::FxHashMap;
 
-/// The number of the fact 2 > 0, which every state contains.
+/// The number of the fact 2 > 0, which is always known.
 const TWO: usize = 0;
 
 /// The knowledge at a leaf of a proof.
@@ -34,7 +34,7 @@ pub struct Knowledge<'p> {
 }
 
 impl<'p> Knowledge<'p> {
-    /// Returns the state at the beginning of a leaf under the assumptions of cases. Powers of two and exponentials are
+    /// Returns the knowledge at the beginning of a leaf under the assumptions of cases. Powers of two and exponentials are
     /// positive. In a limit, the assumptions must not depend on its variable.
     pub fn new(sequent: &'p Sequent, cases: &[(Polynomial, Sign)]) -> Checked<Self> {
         let signs = (0..sequent.table.atoms.len()).map(|x| sequent.table.sign(x));

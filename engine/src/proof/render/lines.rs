@@ -102,12 +102,12 @@ impl<'a> Lines<'a> {
             (Proposition::Sign(relation, _), [of, ..]) => {
                 vec![("it is", of.clone(), format!(" {relation} 0"))]
             }
-            (Proposition::Within(..), [of, bound]) => vec![
-                ("the bound − it is", state.facts.sum(bound, -1, of)?, " ≥ 0".into()),
-                ("the bound + it is", state.facts.sum(bound, 1, of)?, " ≥ 0".into()),
-            ],
+            (Proposition::Within(..), _) => {
+                let ends = ["the bound − it is", "the bound + it is"].into_iter().zip(state.goals()?);
+                ends.map(|(is, (of, _))| (is, of, " ≥ 0".into())).collect()
+            }
             (Proposition::Equal(..), [a, b]) => {
-                let difference = state.facts.sum(a, -1, b)?;
+                let difference = state.goals()?.swap_remove(0).0;
                 let shorter = if a.num.terms().len() <= b.num.terms().len() { a } else { b };
                 vec![match difference.num.is_zero() {
                     true => ("both sides are", shorter.clone(), String::new()),

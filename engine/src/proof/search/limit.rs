@@ -22,9 +22,12 @@ impl Search<'_> {
         let num = self.proof.state.without_vanishing_terms(&of.num)?;
         let (_, coefficients) = self.proof.state.leading(&Quotient { num, den: of.den.clone() })?;
         coefficients[1..].iter().try_for_each(|of| self.show_part(of))?;
-        for (difference, _) in self.proof.state.goals()? {
+        for (difference, sign) in self.proof.state.goals()? {
             self.show_part(&difference.num)?;
+            if !self.proof.state.facts.have(&difference, sign) {
+                return Err(Refusal::Limit.into());
+            }
         }
-        if self.proof.state.proves_goal()? { Ok(()) } else { Err(Refusal::Limit.into()) }
+        Ok(())
     }
 }

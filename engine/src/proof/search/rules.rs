@@ -170,12 +170,7 @@ fn sign_of_number(q: &Rational) -> Sign {
 }
 
 fn sign_of_monomial(monomial: &Monomial, known: &SignEnv) -> Sign {
-    let signs = monomial.powers().map(|(x, n)| match (n % 2, known.get(x)) {
-        (1, sign) => sign,
-        (_, Sign::ANY) => Sign::NON_NEGATIVE,
-        (_, sign) => sign.times(sign),
-    });
-    signs.fold(Sign::POSITIVE, Sign::times)
+    monomial.powers().fold(Sign::POSITIVE, |product, (x, n)| product.times(known.get(x).power(n)))
 }
 
 /// Returns the coefficients bᵢ for which a polynomial of degree n in x is Σ bᵢ aⁱ (1 − a)ⁿ⁻ⁱ, where
