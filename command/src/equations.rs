@@ -35,7 +35,6 @@ pub struct Options {
 formats!(
     Table: "For reading",
     Json: "For programs",
-    Markdown: "For documents",
     Dot: "For Graphviz: dependencies, and what is proved"
 );
 
@@ -47,7 +46,6 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         entries().iter().filter(|e| all || numbers.iter().any(|n| n == e.equation)).collect();
     output::print(|out| match options.format {
         Format::Json => output::json(out, &chosen.iter().map(|entry| json(entry)).collect::<Vec<_>>()),
-        Format::Markdown => markdown(out, &chosen),
         Format::Dot => write!(out, "{}", graph(&chosen)),
         Format::Table if all => table(out, &chosen),
         Format::Table => chosen.iter().enumerate().try_for_each(|(i, entry)| {
@@ -106,16 +104,6 @@ fn table(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
     });
     // A broken name cannot be searched for; titles may be broken.
     output::table(out, ["number", "title", "function", "claims"], rows, 1..2)
-}
-
-fn markdown(out: &mut dyn Write, entries: &[&Entry]) -> io::Result<()> {
-    let rows = entries.iter().map(|entry| {
-        let function = function(entry).map_or(String::new(), |function| format!("`{function}`"));
-        let [hypotheses, claims] =
-            [entry.format_hypotheses().join(", "), claim_names(entry.equation).join(", ")];
-        [entry.label(), entry.title.to_string(), entry.statement(), hypotheses, function, claims]
-    });
-    output::markdown(out, ["number", "title", "statement", "hypotheses", "function", "claims"], rows)
 }
 
 fn details(out: &mut dyn Write, entry: &Entry) -> io::Result<()> {

@@ -8,7 +8,6 @@ mod args;
 mod cases;
 mod check;
 mod equations;
-mod indent;
 mod json;
 mod lines;
 mod output;
@@ -71,6 +70,12 @@ enum Command {
 struct Completions {
     /// Shell
     shell: clap_complete::Shell,
+}
+
+/// Returns the subcommands and options, for tests.
+#[doc(hidden)]
+pub fn definition() -> clap::Command {
+    Cli::command()
 }
 
 /// Runs the command with the arguments of the process.

@@ -1,19 +1,14 @@
 //! Output: stdout, closed pipes, one-line errors, exit codes and tables.
 
-use crate::indent::Indented;
 use crate::lines::NO_BREAK_SPACE;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use comfy_table::{ColumnConstraint, ContentArrangement, Row, Table, presets};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
-use serde_json::Serializer;
 use std::fmt::Display;
-use std::io::{self, BufWriter, IsTerminal, Write};
+use std::io::{self, BufWriter, Write};
 use std::ops::RangeBounds;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
-use std::thread;
 use std::time::Duration;
 
 /// Columns of a page, for help and for output that is not a terminal.
@@ -134,7 +129,7 @@ pub(crate) use record;
 
 /// Prints indented JSON and a line break.
 pub fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
-    value.serialize(&mut Serializer::with_formatter(&mut *out, Indented::default()))?;
+    serde_json::to_writer_pretty(&mut *out, value)?;
     writeln!(out)
 }
 
@@ -226,59 +221,33 @@ pub fn wrapped(out: &mut dyn Write, first: &str, rest: usize, text: &str) -> io:
 pub fn command<'a>(out: &mut dyn Write, words: impl IntoIterator<Item = &'a str>) -> io::Result<()> {
     let room = width() - " \\".len();
     let mut line = String::from(" ");
-    for plain in words {
-        let word = shlex::try_quote(plain).map_err(io::Error::other)?;
+    for word in words {
+        let word = shlex::try_quote(word).map_err(io::Error::other)?;
         let more = " ".len() + textwrap::core::display_width(&word);
         if textwrap::core::display_width(&line) + more > room && line.trim() != "" {
             writeln!(out, "{line} \\")?;
             line = "     ".to_string();
         }
         line.push(' ');
-        let mut rest = &*word;
-        // A number that is longer than a line continues at the beginning of the next one, since a blank would
-        // end it.
-        while word == plain && line.len() + rest.len() > room {
-            let (head, tail) = rest.split_at(room - line.len());
-            writeln!(out, "{line}{head}\\")?;
-            (line, rest) = (String::new(), tail);
-        }
-        line += rest;
+        line += &word;
     }
     writeln!(out, "{line}")
 }
 
-/// Shows a progress bar on stderr if that is a terminal and the work takes longer than a second. The work
-/// reports its progress as often as it likes, since another thread draws the bar.
+/// Shows a progress bar on stderr while the work lasts, from its second second on, if that is a terminal.
 pub fn with_progress<T>(what: &str, work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T) -> T {
-    if !io::stderr().is_terminal() {
-        return work(&|_, _| {});
-    }
-    let (done, all) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    thread::scope(|scope| {
-        // The channel is closed when the work ends.
-        let (_work, working) = mpsc::channel();
-        scope.spawn(|| draw_progress(what, working, &done, &all));
-        work(&|now, of| {
-            all.store(of, Ordering::Relaxed);
-            done.fetch_max(now, Ordering::Relaxed);
-        })
-    })
-}
-
-/// Draws a progress bar until the channel is closed, if that takes longer than a second.
-fn draw_progress(what: &str, working: Receiver<()>, done: &AtomicUsize, all: &AtomicUsize) {
-    if working.recv_timeout(Duration::from_secs(1)) != Err(RecvTimeoutError::Timeout) {
-        return;
-    }
     let style = ProgressStyle::with_template(&format!("{what} {{bar:40}} {{percent:>3}} %"));
-    let bar = ProgressBar::new(0).with_style(style.unwrap_or(ProgressStyle::default_bar()));
-    while working.recv_timeout(Duration::from_millis(100)) == Err(RecvTimeoutError::Timeout) {
-        bar.update(|state| {
-            state.set_len(all.load(Ordering::Relaxed) as u64);
-            state.set_pos(done.load(Ordering::Relaxed) as u64);
-        });
-    }
+    let bar = ProgressBar::no_length().with_style(style.unwrap_or(ProgressStyle::default_bar()));
+    let result = work(&|now, of| {
+        if bar.elapsed() > Duration::from_secs(1) {
+            bar.update(|state| {
+                state.set_len(of as u64);
+                state.set_pos(state.pos().max(now as u64));
+            });
+        }
+    });
     bar.finish_and_clear();
+    result
 }
 
 /// Prints a message of clap: help and version to stdout, an error as one line.
@@ -328,7 +297,6 @@ pub fn capture(print: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::{Value, json};
 
     #[test]
     fn lines_end_before_a_page_does_but_not_at_glue() {
@@ -354,30 +322,12 @@ mod tests {
         assert_eq!(capture(|out| wrapped(out, "", 2, &format!("a {}", nines(190)))), broken);
     }
 
-    /// Arrays and objects are on one line from the eighth on, also after others.
-    #[test]
-    fn only_deeply_nested_values_are_on_one_line() {
-        let nest: [fn(Value) -> Value; 2] = [|inner| json!([inner, 2]), |inner| json!({"a": inner, "b": 2})];
-        for (nest, line) in nest.into_iter().zip(["[[1,2],2],", r#""a": {"a":{"a":1,"b":2},"b":2},"#]) {
-            let shallow = json!(vec![nest(json!(1)); 9]);
-            let text = capture(|out| super::json(out, &shallow));
-            assert_eq!(text, serde_json::to_string_pretty(&shallow).unwrap() + "\n");
-            let deep = (0..9).fold(json!(1), |inner, _| nest(inner));
-            let text = capture(|out| super::json(out, &deep));
-            assert_eq!(text.lines().filter(|text| text.trim() == line).count(), 1, "{text}");
-            assert_eq!(text.lines().count(), 7 + 1 + 7 + 7, "{text}");
-        }
-    }
-
-    /// A line has room for the backslash; a longer number continues in the next line.
+    /// A line has room for the backslash.
     #[test]
     fn a_command_fills_its_lines() {
         let lines = |words: &[&str]| capture(|out| command(out, words.iter().copied()));
         let [a, b, c] = [40, 35, 36].map(|n| "9".repeat(n));
         assert_eq!(lines(&[&a, &b]), format!("  {a} {b}\n"));
         assert_eq!(lines(&[&a, &c]), format!("  {a} \\\n      {c}\n"));
-        let [full, rest] = [76, 24].map(|n| "9".repeat(n));
-        assert_eq!(lines(&[&full]), format!("  {full}\n"));
-        assert_eq!(lines(&[&(full.clone() + &rest)]), format!("  {full}\\\n{rest}\n"));
     }
 }

@@ -1,21 +1,18 @@
 //! `contact sweep`: the penalty method over a range of penalties, in several number systems.
 
-mod plot;
-
 use crate::args::{
     self, NameStyle, Number, System, exact, format_exact, in_scalar, parse_positive, parse_u64_in,
 };
 use crate::output::{self, Exit, Failure, formats, shortened};
-use num_traits::{One, Zero};
-use plot::Curve;
+use num_traits::One;
 use serde::Serialize;
 use spring_mass_contact::chapter::{SpringMass, penalty, rounding, system};
 use spring_mass_contact::number::{Exact, ExactText, NumberSystem};
-use spring_mass_contact::rug::{Float, float::Round};
+use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{
     Scalar, SolveError, State, SweepRow, best_penalty, penalties, penalty_force_bound, sweep,
 };
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,7 +24,7 @@ The errors are relative, |N − R|/R, for the exact contact force R of the round
 parameters; in JSON they are exact, elsewhere rounded to a few digits. Penalties
 are the same numbers in every number system, each rounded once; one that is out
 of range ends the command. A row whose results are out of range has an error
-instead. On a terminal there is also a plot.
+instead.
 
 Exit status: 0 success; 1 a row has an error; 2 bad input, or no row has results.";
 
@@ -93,7 +90,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let sweeps = output::with_progress("sweeping", |progress| sweeps(options, progress))?;
     let rows: Vec<_> = sweeps.iter().flat_map(|sweep| &sweep.rows).collect();
     output::print(|out| match options.format {
-        Format::Table => table(out, options, &sweeps, io::stdout().is_terminal()),
+        Format::Table => table(out, options, &sweeps),
         Format::Json => output::json(out, &rows),
         Format::Csv => output::csv(out, &rows),
     })?;
@@ -133,7 +130,6 @@ struct Sweep {
     scalar: NumberSystem,
     rows: Vec<Row>,
     notes: Vec<String>,
-    curves: [Curve; 2],
 }
 
 /// Results for one penalty, or the error.
@@ -162,16 +158,12 @@ impl Sweeping<'_> {
         let system = self.options.system.round(NameStyle::Options, like)?;
         let rounded: Vec<T> =
             self.penalties.iter().map(|eps| eps.round(PENALTY, like)).collect::<Result<_, _>>()?;
-        let (mut rows, mut curves) = (Vec::new(), Curve::pair());
+        let mut rows = Vec::new();
         let mut first_error = None;
         let mut least: Option<(Exact, &str)> = None;
         for ((i, row), eps) in (1..).zip(sweep(&system, rounded.iter().cloned())).zip(self.penalties) {
             match &row {
                 Ok(row) => {
-                    let errors = [&row.force_error, &row.penalty_force_error];
-                    for (curve, error) in curves.iter_mut().zip(errors) {
-                        curve.points.extend(log10(&eps.value).zip(error.as_ref().and_then(log10)));
-                    }
                     if let Some(error) = &row.penalty_force_error
                         && least.as_ref().is_none_or(|(least, _)| error < least)
                     {
@@ -191,7 +183,7 @@ impl Sweeping<'_> {
             Some(error) if rows.iter().all(|row: &Row| row.error.is_some()) => Err(error.into()),
             _ => {
                 let notes = self.notes(&system, &rounded, least);
-                Ok(Sweep { scalar: self.scalar, rows, notes, curves })
+                Ok(Sweep { scalar: self.scalar, rows, notes })
             }
         }
     }
@@ -309,15 +301,10 @@ fn augmentation_note<T: ExactText>(system: &SpringMass<T>, penalties: &[T], eta:
     ))
 }
 
-fn log10(x: &Exact) -> Option<f64> {
-    let log = Float::with_val(64, x.as_rational()).log10().to_f64();
-    (*x > Exact::zero()).then_some(log)
-}
-
-fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool) -> io::Result<()> {
+fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep]) -> io::Result<()> {
     const NAMES: [&str; 7] = ["ε in N/m", "u in m", "p in m", "m g − c u", "error", "ε p in N", "error"];
     output::wrapped(out, " ", 1, &options.system.shown())?;
-    for Sweep { scalar, rows, notes, curves } in sweeps {
+    for Sweep { scalar, rows, notes } in sweeps {
         writeln!(out, "\n {scalar}\n{}", output::aligned(&WIDTHS, NAMES))?;
         for row in rows {
             let Row { penalty, deflection, penetration, contact_force, penalty_force, .. } = row;
@@ -330,9 +317,6 @@ fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool
                 None => output::aligned(&WIDTHS[1..], cells),
             };
             writeln!(out, " {penalty:<width$}{results}", width = WIDTHS[0])?;
-        }
-        if plotted && let Some(plot) = plot::log_log(curves) {
-            write!(out, "\n{plot}")?;
         }
         writeln!(out)?;
         if rows.iter().any(|row| row.error.is_some()) {
@@ -347,38 +331,12 @@ fn table(out: &mut dyn Write, options: &Options, sweeps: &[Sweep], plotted: bool
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::capture;
     use clap::{Args, FromArgMatches};
     use std::cell::RefCell;
 
     fn options(line: &str) -> Options {
         let command = Options::augment_args(clap::Command::new("sweep"));
         Options::from_arg_matches(&command.get_matches_from(line.split(' '))).expect("options")
-    }
-
-    fn printed_table(line: &str, plotted: bool) -> String {
-        let options = options(line);
-        let Ok(sweeps) = sweeps(&options, &|_, _| {}) else { panic!("{line} is refused") };
-        capture(|out| table(out, &options, &sweeps, plotted))
-    }
-
-    /// Both curves, as far as they have points; the rest of the table is unchanged.
-    #[test]
-    fn a_terminal_gets_a_plot_besides() {
-        let braille = |line: &&str| line.contains(|c| ('\u{2800}'..'\u{2900}').contains(&c));
-        for (line, plots) in [
-            ("sweep --penalty 1..1e18 --scalar f32 --scalar f64", 2),
-            ("sweep --penalty 1..1e9 --scalar exact", 1),
-            ("sweep --penalty 1..1e18 --height 2", 0),
-        ] {
-            let [bare, plotted] = [false, true].map(|plotted| printed_table(line, plotted));
-            assert_eq!(bare.lines().filter(braille).count(), 0, "{line}");
-            assert_eq!(plotted.matches("relative error of").count(), plots, "{line}");
-            assert_eq!(plotted.lines().filter(braille).count() > 16 * plots, plots > 0, "{line}");
-            assert!(plotted.lines().all(|line| line.chars().count() <= 80), "{plotted}");
-            let mut rest = plotted.lines();
-            assert!(bare.lines().all(|line| rest.any(|other| other == line)), "{line}");
-        }
     }
 
     /// Over all rows of all number systems.
@@ -388,19 +346,5 @@ mod tests {
         let options = options("sweep --penalty 1..9 --points 5 --scalar f32 --scalar f64 --scalar f32");
         assert!(sweeps(&options, &|row, of| seen.borrow_mut().push((row, of))).is_ok());
         assert_eq!(seen.into_inner(), (1..=10).map(|row| (row, 10)).collect::<Vec<_>>());
-    }
-
-    #[test]
-    fn the_plot_in_the_book_is_current() {
-        let package = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-        if package.join("Cargo.toml.orig").exists() {
-            return eprintln!("the packed crate comes without the book");
-        }
-        let page = package.join("../book/src/command.md");
-        let page = std::fs::read_to_string(page).expect("the book");
-        let plotted = printed_table("sweep --penalty 1..1e18", true);
-        let (_, plot) = plotted.split_once("relative error of").expect("a plot");
-        let (plot, _) = plot.split_once("\n\n").expect("what is said of it");
-        assert!(page.contains(plot), "{plot}");
     }
 }

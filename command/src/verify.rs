@@ -51,8 +51,7 @@ pub struct Options {
 
 formats!(
     Table: "For reading: one line for each equation",
-    Json: "For programs: everything",
-    Markdown: "For documents: one line for each claim and number system"
+    Json: "For programs: everything"
 );
 
 /// Verifies and prints the report.
@@ -84,7 +83,6 @@ fn print(
     match format {
         Format::Table => table(out, report, options),
         Format::Json => output::json(out, report),
-        Format::Markdown => markdown(out, report),
     }
 }
 
@@ -241,18 +239,6 @@ fn failure(out: &mut dyn Write, alike: &[&ClaimResult]) -> io::Result<()> {
 /// Returns the number systems of rows.
 fn names(rows: &[&ClaimResult]) -> String {
     rows.iter().map(|row| column_name(row.scalar)).collect::<Vec<_>>().join(", ")
-}
-
-fn markdown(out: &mut dyn Write, report: &VerificationReport) -> io::Result<()> {
-    let names = ["number", "claim", "kind", "scalar", "status", "decided", "undecided", "worst share"];
-    let rows = report.rows.iter().map(|row| {
-        let scalar = row.scalar.map_or(String::new(), |scalar| scalar.to_string());
-        let worst = row.worst.as_ref().map_or(String::new(), |(ratio, _)| format!("{ratio:.2}"));
-        let [equation, claim, kind] = [row.equation, row.claim, row.kind].map(String::from);
-        let [decided, undecided] = [row.decided, row.undecided].map(|count| count.to_string());
-        [equation, claim, kind, scalar, row.status.to_string(), decided, undecided, worst]
-    });
-    output::markdown(out, names, rows)
 }
 
 #[cfg(test)]

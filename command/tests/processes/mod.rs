@@ -1,6 +1,5 @@
 //! The command as a child process with a time limit.
 
-use oorandom::Rand64;
 use std::fs;
 use std::io::Read;
 use std::ops::Deref;
@@ -79,21 +78,4 @@ fn collect(pipe: Option<impl Read + Send + 'static>) -> thread::JoinHandle<Vec<u
         pipe.map(|mut pipe| pipe.read_to_end(&mut bytes)).transpose().expect("a pipe");
         bytes
     })
-}
-
-/// Returns an integer from the environment.
-pub fn asked(name: &str, default: u64) -> u64 {
-    let value = std::env::var(name).ok();
-    value.map_or(default, |text| {
-        text.parse().unwrap_or_else(|_| panic!("{name}={text}: must be a whole number"))
-    })
-}
-
-/// Returns the random generator of the n-th trial.
-pub fn random(seed: u64, n: u64) -> Rand64 {
-    Rand64::new(u128::from(seed) << 64 | u128::from(n))
-}
-
-pub fn pick<'a, T>(random: &mut Rand64, from: &'a [T]) -> &'a T {
-    &from[random.rand_range(0..from.len() as u64) as usize]
 }
