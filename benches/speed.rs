@@ -1,16 +1,62 @@
-//! Speed relative to references timed in the same run.
-//!
-//! `cargo bench -p benches` times everything and prints the table; `cargo bench -p benches -- mpfr` times the
-//! benchmarks with that name.
+//! Speed relative to references timed in the same run: `cargo bench --bench speed` prints the table.
 
-use benches::{Ratio, table};
-use criterion::{Criterion, measurement::WallTime};
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, lagrange, penalty};
 use spring_mass_contact::number::{Ball, Exact, Mpfr, ToExact};
 use spring_mass_contact::rug::{Assign, Float, ops::SubFrom};
 use spring_mass_contact::solver::{Augmentation, Method, Outcome, Plane, State, kth_iterate, solve};
 use std::hint::black_box;
-use std::time::Duration;
+use std::time::{Duration, Instant};
+
+/// Number and duration of the alternating turns; the speed of a machine drifts over seconds.
+const TURNS: usize = 100;
+const TURN: Duration = Duration::from_millis(5);
+
+/// Prints a row of the table: the least times of a reference and of our computation, of each of which a call
+/// performs a number of operations. A ratio that misses its target is bold.
+fn compare<A, B>(
+    name: &str,
+    (reference, many, mut raw): (&str, u64, impl FnMut() -> A),
+    (own_many, mut own): (u64, impl FnMut() -> B),
+    wanted: f64,
+) {
+    let mut least = [f64::INFINITY; 2];
+    for _ in 0..TURNS {
+        least[0] = least[0].min(turn(&mut raw) / many as f64);
+        least[1] = least[1].min(turn(&mut own) / own_many as f64);
+    }
+    let ratio = least[1] / least[0];
+    let mark = if ratio > wanted { "**" } else { "" };
+    let [raw, own] = least.map(duration);
+    println!("| {name} | {reference} | {raw} | {own} | {mark}{}{mark} | {wanted} |", digits(ratio));
+}
+
+/// Returns the nanoseconds of a call, averaged over one turn.
+fn turn<A>(call: &mut impl FnMut() -> A) -> f64 {
+    let (start, mut calls) = (Instant::now(), 0);
+    while start.elapsed() < TURN || calls == 0 {
+        black_box(call());
+        calls += 1;
+    }
+    start.elapsed().as_nanos() as f64 / f64::from(calls)
+}
+
+/// Formats nanoseconds in a suitable unit.
+fn duration(ns: f64) -> String {
+    let units = [(1.0, "ns"), (1e3, "µs"), (1e6, "ms"), (1e9, "s")];
+    let (unit, name) = units.into_iter().rev().find(|(unit, _)| ns >= *unit).unwrap_or(units[0]);
+    format!("{} {name}", digits(ns / unit))
+}
+
+/// Formats two or three digits.
+fn digits(x: f64) -> String {
+    if x >= 100.0 {
+        format!("{x:.0}")
+    } else if x >= 0.1 {
+        format!("{x:.2}")
+    } else {
+        format!("{x:.1e}")
+    }
+}
 
 /// The default system of the command.
 const SYSTEM: SpringMass<f64> = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
@@ -20,6 +66,9 @@ const PENALTY: f64 = 1000.0;
 const CHAIN: u64 = 1000;
 const STUDY: u64 = 1_000_000;
 const STEPS: u64 = 100;
+
+/// Reference of the augmentation.
+const IN_PLACE: &str = "MPFR in place, what is fixed computed once";
 
 /// Returns the same system for the next step of a chain, which depends on the results of the previous one.
 fn next(system: SpringMass<f64>, results: [f64; 3]) -> SpringMass<f64> {
@@ -47,7 +96,7 @@ fn chain_of_solves(method: Method<f64>) -> impl FnMut() -> f64 {
     }
 }
 
-fn floats(criterion: &mut Criterion<WallTime>) -> Vec<Ratio> {
+fn floats() {
     let by_lagrange = |s: &SpringMass<f64>| {
         let u = lagrange::deflection(s);
         [u, contact::contact_force(s), contact::penetration(s, &u)]
@@ -60,62 +109,55 @@ fn floats(criterion: &mut Criterion<WallTime>) -> Vec<Ratio> {
     let systems: Vec<_> = (0..CHAIN).map(|i| SpringMass { h: 1.05 + i as f64 * 1e-5, ..SYSTEM }).collect();
     let balls: Vec<_> = systems.iter().map(|s| s.map(|x| Ball::point(*x))).collect();
     let study: Vec<_> = (0..STUDY).map(|i| SpringMass { h: 1.05 + i as f64 * 1e-9, ..SYSTEM }).collect();
-    vec![
-        Ratio::of(
-            criterion,
-            "solve in f64, Lagrange, with state and bounds",
-            (chain, CHAIN, chain_of_formulas(by_lagrange)),
-            (CHAIN, chain_of_solves(Method::Lagrange)),
-            6.0,
-        ),
-        Ratio::of(
-            criterion,
-            "solve in f64, penalty, with state and bounds",
-            (chain, CHAIN, chain_of_formulas(by_penalty)),
-            (CHAIN, chain_of_solves(Method::Penalty { penalty: PENALTY })),
-            6.0,
-        ),
-        Ratio::of(
-            criterion,
-            "state of a system in f64",
-            ("Lagrange's formulas in a chain", CHAIN, chain_of_formulas(by_lagrange)),
-            (CHAIN, || {
-                let mut system = black_box(SYSTEM);
-                for _ in 0..CHAIN {
-                    let touches = if State::of(&system) == Ok(State::Contact) { 1.0 } else { 0.0 };
-                    system = next(system, [touches; 3]);
-                }
-                system.h
-            }),
-            6.0,
-        ),
-        Ratio::of(
-            criterion,
-            "balls of f64, (1.13)",
-            ("f64", CHAIN, || {
-                for system in black_box(&systems) {
-                    black_box(penalty::deflection(system, black_box(&PENALTY)));
-                }
-            }),
-            (CHAIN, || {
-                let eps = Ball::point(PENALTY);
-                for system in black_box(&balls) {
-                    black_box(penalty::deflection(system, black_box(&eps)));
-                }
-            }),
-            8.0,
-        ),
-        Ratio::of(
-            criterion,
-            "(1.13) of a million systems in memory",
-            ("adding up their heights", STUDY, || study.iter().map(|s| s.h).sum::<f64>()),
-            (STUDY, || study.iter().map(|s| penalty::deflection(s, &PENALTY)).sum::<f64>()),
-            1.0,
-        ),
-    ]
+    compare(
+        "solve in f64, Lagrange, with state and bounds",
+        (chain, CHAIN, chain_of_formulas(by_lagrange)),
+        (CHAIN, chain_of_solves(Method::Lagrange)),
+        6.0,
+    );
+    compare(
+        "solve in f64, penalty, with state and bounds",
+        (chain, CHAIN, chain_of_formulas(by_penalty)),
+        (CHAIN, chain_of_solves(Method::Penalty { penalty: PENALTY })),
+        6.0,
+    );
+    compare(
+        "state of a system in f64",
+        ("Lagrange's formulas in a chain", CHAIN, chain_of_formulas(by_lagrange)),
+        (CHAIN, || {
+            let mut system = black_box(SYSTEM);
+            for _ in 0..CHAIN {
+                let touches = if State::of(&system) == Ok(State::Contact) { 1.0 } else { 0.0 };
+                system = next(system, [touches; 3]);
+            }
+            system.h
+        }),
+        6.0,
+    );
+    compare(
+        "balls of f64, (1.13)",
+        ("f64", CHAIN, || {
+            for system in black_box(&systems) {
+                black_box(penalty::deflection(system, black_box(&PENALTY)));
+            }
+        }),
+        (CHAIN, || {
+            let eps = Ball::point(PENALTY);
+            for system in black_box(&balls) {
+                black_box(penalty::deflection(system, black_box(&eps)));
+            }
+        }),
+        8.0,
+    );
+    compare(
+        "(1.13) of a million systems in memory",
+        ("adding up their heights", STUDY, || study.iter().map(|s| s.h).sum::<f64>()),
+        (STUDY, || study.iter().map(|s| penalty::deflection(s, &PENALTY)).sum::<f64>()),
+        1.0,
+    );
 }
 
-/// (1.16) by hand with rug's floats in place. The `fixed` terms do not depend on λ.
+/// (1.16) by hand with rug's floats in place; what does not depend on λ is computed once.
 struct Raw {
     system: SpringMass<Float>,
     eps: Float,
@@ -133,32 +175,23 @@ impl Raw {
     fn new(system: &SpringMass<Mpfr>, eps: &Mpfr) -> Self {
         let float = |x: &Mpfr| x.as_float().expect("a rounded number").clone();
         let (system, eps) = (system.map(float), float(eps));
-        let zero = || Float::new(eps.prec());
-        let (lambda, weight, rest, free, stiffness) = (zero(), zero(), zero(), zero(), zero());
-        let (u, p, force) = (zero(), zero(), zero());
-        let mut raw = Raw { lambda, weight, rest, free, stiffness, u, p, force, system, eps };
-        raw.fix();
-        raw
+        let SpringMass { c, m, g, l, h } = &system;
+        let bits = eps.prec();
+        let weight = Float::with_val(bits, m * g);
+        let free = Float::with_val(bits, &weight / c);
+        let rest = Float::with_val(bits, h - l) * &eps;
+        let stiffness = Float::with_val(bits, c + &eps);
+        let zero = Float::new(bits);
+        let [lambda, u, p, force] = [zero.clone(), zero.clone(), zero.clone(), zero];
+        Raw { lambda, weight, rest, free, stiffness, u, p, force, system, eps }
     }
 
-    fn fix(&mut self) {
-        let SpringMass { c, m, g, l, h } = &self.system;
-        self.weight.assign(m * g);
-        self.free.assign(&self.weight / c);
-        self.rest.assign(h - l);
-        self.rest *= &self.eps;
-        self.stiffness.assign(c + &self.eps);
-    }
-
-    fn step(&mut self, plane: Plane, hoisted: bool) {
-        if !hoisted {
-            self.fix();
-        }
+    fn step(&mut self) {
         let SpringMass { c, l, h, .. } = &self.system;
         self.u.assign(&self.weight - &self.lambda);
         self.u += &self.rest;
         self.u /= &self.stiffness;
-        if plane == Plane::Unilateral && self.free < self.u {
+        if self.free < self.u {
             self.u.assign(&self.free);
         }
         self.force.assign(c * &self.u);
@@ -169,7 +202,7 @@ impl Raw {
         // One product as in the formula, and a sum.
         self.u.assign(p * eps);
         self.lambda += &self.u;
-        if plane == Plane::Unilateral && self.lambda.is_sign_negative() {
+        if self.lambda.is_sign_negative() {
             self.lambda.assign(0);
         }
     }
@@ -181,39 +214,22 @@ fn in_bits(bits: u32) -> (SpringMass<Mpfr>, Mpfr) {
     (system, Exact::from(1000).to_mpfr(bits))
 }
 
-fn mpfr(criterion: &mut Criterion<WallTime>) -> Vec<Ratio> {
-    let mut ratios = Vec::new();
+fn mpfr() {
     for (bits, wanted) in [(256, 1.6), (4096, 1.1), (65536, 1.05)] {
         let (system, eps) = in_bits(bits);
-        for (plane, hoisted) in [
-            (Plane::Unilateral, false),
-            (Plane::Bilateral, false),
-            (Plane::Unilateral, true),
-            (Plane::Bilateral, true),
-        ] {
-            let mut raw = Raw::new(&system, &eps);
-            let (side, reference) = match (plane, hoisted) {
-                (Plane::Unilateral, false) => ("unilateral", "MPFR in place"),
-                (Plane::Bilateral, false) => ("bilateral", "MPFR in place"),
-                (Plane::Unilateral, true) => ("unilateral", "the same, what is fixed computed once"),
-                (Plane::Bilateral, true) => ("bilateral", "the same, what is fixed computed once"),
-            };
-            let which = if hoisted { "fixed part once" } else { "all in each step" };
-            let mut steps = Augmentation::new(&system, &eps).over(plane);
-            ratios.push(Ratio::of(
-                criterion,
-                format!("(1.16) {side}, mpfr {bits}, {which}"),
-                (reference, STEPS, || (0..STEPS).for_each(|_| raw.step(plane, hoisted))),
-                (STEPS, || (0..STEPS).for_each(|_| drop(black_box(steps.step())))),
-                wanted,
-            ));
-        }
+        let mut raw = Raw::new(&system, &eps);
+        let mut steps = Augmentation::new(&system, &eps);
+        compare(
+            &format!("(1.16) unilateral, mpfr {bits}"),
+            (IN_PLACE, STEPS, || (0..STEPS).for_each(|_| raw.step())),
+            (STEPS, || (0..STEPS).for_each(|_| drop(black_box(steps.step())))),
+            wanted,
+        );
     }
-    ratios
 }
 
 /// About 4000 steps to 1e-1200 with 4096 bits, and the last iterate in closed form.
-fn digits(criterion: &mut Criterion<WallTime>) -> Vec<Ratio> {
+fn accurate() {
     let bits = 4096;
     let (system, _) = in_bits(bits);
     // ρ = 1/2
@@ -233,36 +249,26 @@ fn digits(criterion: &mut Criterion<WallTime>) -> Vec<Ratio> {
     };
     let k = converged();
     let mut raw = Raw::new(&system, &eps);
-    let by_hand = Ratio::of(
-        criterion,
+    compare(
         "solve to 1e-1200, mpfr 4096, a step",
-        ("MPFR in place, what is fixed computed once", k, || {
+        (IN_PLACE, k, || {
             raw.lambda.assign(0);
-            (0..k).for_each(|_| raw.step(Plane::Unilateral, true));
+            (0..k).for_each(|_| raw.step());
         }),
         (k, converged),
         1.3,
     );
-    let closed = Ratio::of(
-        criterion,
+    compare(
         "the last iterate by closed form, mpfr 4096",
         ("the loop that leads to it", 1, converged),
         (1, || kth_iterate(&system, &eps, &start, k, Plane::Unilateral).expect("an iterate")),
         0.001,
     );
-    vec![by_hand, closed]
 }
 
 fn main() {
-    let mut criterion = Criterion::default()
-        .warm_up_time(Duration::from_millis(200))
-        .measurement_time(Duration::from_secs(1))
-        .sample_size(20)
-        .without_plots()
-        .configure_from_args();
-    let mut ratios = floats(&mut criterion);
-    ratios.extend(mpfr(&mut criterion));
-    ratios.extend(digits(&mut criterion));
-    criterion.final_summary();
-    println!("\n{}", table(&ratios));
+    println!("| work | against | reference | own | ratio | wanted |\n|---|---|--:|--:|--:|--:|");
+    floats();
+    mpfr();
+    accurate();
 }
