@@ -48,8 +48,8 @@
 //! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: certificates, step counts,
 //!   advice and parsing. Builds GMP and MPFR from source through rug, which is LGPL-3.0-or-later.
 //! - `prover`: the modules `formula`, `eval`, `proof`, `claims`, `verify` and `check`.
-//! - `serde`: implements `serde::Serialize` for the results of the solver and of checks, with quantities as
-//!   texts.
+//! - `serde`: implements `serde::Serialize` for the results of the solver and of checks, with rationals and MPFR
+//!   numbers as texts.
 //! - `gmp-untested` (default): omits the test suites of GMP and MPFR, which take minutes.
 //!
 //! f32, f64, balls, dual numbers, the chapter and the solver need none of these features; only eˣ of floats

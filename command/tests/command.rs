@@ -151,25 +151,17 @@ fn rounding_notes_appear_only_for_visible_rounding() {
     }
 }
 
-/// The command adds keys to the serialisation of the library; common keys have equal values.
+/// The command adds keys to the serialisation of the library; common keys have equal values, except that bounds are
+/// texts that enclose.
 #[test]
 fn the_library_and_the_command_serialise_alike() {
-    let exact = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap();
-    let system = exact.try_map(Exact::to_f64).unwrap();
-    let augmented = |tolerance, max_augmentations| Method::Augmented {
-        penalty: 100.0,
-        tolerance,
-        max_augmentations,
-        start: 0.0,
-    };
+    let system = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap();
     for (arguments, method) in [
         ("--method lagrange", Method::Lagrange),
-        ("--method penalty --penalty 7", Method::Penalty { penalty: 7.0 }),
-        ("--method augmented", Method::augmented(1000.0)),
-        ("--method augmented --penalty 100 --tolerance 1e-30", augmented(1e-30, 1000)),
-        ("--method augmented --penalty 100 --max-augmentations 2 --trace", augmented(1e-9, 2)),
+        ("--method penalty --penalty 7", Method::Penalty { penalty: 7.into() }),
+        ("--method augmented --trace", Method::augmented(1000.into())),
     ] {
-        let printed = solve(arguments);
+        let printed = solve(&format!("{arguments} --scalar exact"));
         let mut iterates = Vec::new();
         let solution = solve_observed(&system, &method, Plane::Unilateral, |k| iterates.push(k.clone()));
         let solution = solution.unwrap();
@@ -177,7 +169,7 @@ fn the_library_and_the_command_serialise_alike() {
         let solution = serde_json::to_value(solution).unwrap();
         let all = "augmentations bounds contact_force deflection floor multiplier outcome penetration state";
         assert_eq!(keys(&solution), words(all));
-        for (name, value) in solution.as_object().unwrap() {
+        for (name, value) in solution.as_object().unwrap().iter().filter(|(name, _)| *name != "bounds") {
             assert_eq!(printed[name], *value, "{name}, {arguments}");
         }
         if arguments.ends_with("--trace") {

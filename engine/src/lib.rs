@@ -31,7 +31,7 @@
 //! - `mpfr`: MPFR floats, exact rationals and parsing of numbers. Builds GMP and MPFR from source through
 //!   rug, which is LGPL-3.0-or-later.
 //! - `prover` (default): the modules `formula`, `eval` and `proof`. Their API may change with any minor version.
-//! - `serde`: serialises numbers as texts, so that no digit is lost.
+//! - `serde`: serialises rationals and MPFR numbers as texts, so that no digit is lost.
 //! - `gmp-untested` (default): omits the test suites of GMP and MPFR, which take minutes.
 
 // The documentation also links to numbers that a build without `mpfr` lacks.

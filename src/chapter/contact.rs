@@ -42,6 +42,7 @@ pub fn equilibrium<T: Field>(system: &SpringMass<T>, u: &T, n: &T) -> T {
 /// only there.
 /// [In the book](../../../../book/contact.html#eq-1-6)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Kkt<T> {
     /// The residual of equilibrium, in N, with its sign.
     pub stationarity: T,

@@ -15,35 +15,26 @@ use std::fmt;
 /// ```
 ///
 /// With the feature `serde` it is serialised under the keys of `contact solve --batch`, `stiffness`, `mass`,
-/// `gravity`, `free_length` and `height`, each number as a text; and read back from such texts, as any number
-/// is read: decimals and fractions exactly, rounded once. So f32 and f64 come back bit by bit (finite ones;
-/// others are refused), and rationals as they were. MPFR numbers come back as constants of the same value,
-/// since a text has no precision: read a `SpringMass<Exact>`, and round it.
+/// `gravity`, `free_length` and `height`: f32 and f64 as numbers, rationals and MPFR numbers as texts. A
+/// `SpringMass<Exact>` is read from the texts of all of them without rounding.
 /// [In the book](../../../../book/system.html#fn-system-SpringMass)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(
-        serialize = "T: crate::number::ExactText",
-        deserialize = "T: crate::number::ExactText + crate::number::Field"
-    ))
-)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SpringMass<T> {
     /// Stiffness of the spring, c > 0, in N/m.
-    #[cfg_attr(feature = "serde", serde(rename = "stiffness", with = "crate::number::lossless"))]
+    #[cfg_attr(feature = "serde", serde(rename = "stiffness"))]
     pub c: T,
     /// Mass, m > 0, in kg.
-    #[cfg_attr(feature = "serde", serde(rename = "mass", with = "crate::number::lossless"))]
+    #[cfg_attr(feature = "serde", serde(rename = "mass"))]
     pub m: T,
     /// Gravitational acceleration g, in m/s². Any finite value; a negative one lifts the mass.
-    #[cfg_attr(feature = "serde", serde(rename = "gravity", with = "crate::number::lossless"))]
+    #[cfg_attr(feature = "serde", serde(rename = "gravity"))]
     pub g: T,
     /// Undeformed (free) length l of the spring, in m.
-    #[cfg_attr(feature = "serde", serde(rename = "free_length", with = "crate::number::lossless"))]
+    #[cfg_attr(feature = "serde", serde(rename = "free_length"))]
     pub l: T,
     /// Height H between the support and the plane, in m.
-    #[cfg_attr(feature = "serde", serde(rename = "height", with = "crate::number::lossless"))]
+    #[cfg_attr(feature = "serde", serde(rename = "height"))]
     pub h: T,
 }
 

@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 
 /// Result of [`advise`].
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::ExactText"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Advice<T> {
     /// Contact, grazing or separated.
@@ -31,7 +31,7 @@ pub struct Advice<T> {
 
 /// A method that meets the tolerance, confirmed by a run.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::ExactText"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Recommendation<T> {
     /// The method, as an argument for [`solve`].
@@ -43,7 +43,6 @@ pub struct Recommendation<T> {
     /// multiplier, by at most c times the tolerance; if no sufficient penalty has this property, the larger
     /// one is the penalty of the method. `None` if the method has no penalty, or if only the range of the
     /// scalar limits it.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::options"))]
     pub penalty_range: [Option<T>; 2],
     /// Number k of augmentations needed.
     pub augmentations: Option<u64>,

@@ -9,23 +9,19 @@ use std::sync::LazyLock;
 
 /// One iterate of (1.16).
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::ExactText"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Iterate<T> {
     /// Number k of the augmentation, from 0.
     pub k: u64,
     /// λ_k, in N.
-    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub multiplier: T,
     /// u_k, in m.
-    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub deflection: T,
     /// p_k, in m.
-    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub penetration: T,
     /// m g − c u_k, in N: the force in equilibrium with u_k, or 0 if the mass is separated. In exact
     /// arithmetic it is λ_{k+1} (note 6).
-    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub contact_force: T,
 }
 

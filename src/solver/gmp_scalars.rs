@@ -27,14 +27,6 @@ impl<T: ExactText> Interval<T> {
     }
 }
 
-/// Serialises the two texts.
-#[cfg(feature = "serde")]
-impl<T: ExactText> serde::Serialize for Interval<T> {
-    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        self.texts().serialize(to)
-    }
-}
-
 by_ball! {
     Mpfr, |plus: [(&Mpfr, &Mpfr); 2], minus: (&Mpfr, &Mpfr)| {
         (product(plus[0]) + product(plus[1])).cmp(&product(minus))

@@ -30,13 +30,3 @@ impl<T: Scalar + ToExact> Solution<T> {
         Ok(contact::kkt(&system.map(exact), &exact(&self.deflection), &exact(&self.contact_force)))
     }
 }
-
-/// Serialises each residual as a text, so that no reader rounds it.
-#[cfg(feature = "serde")]
-impl<T: crate::number::ExactText> serde::Serialize for contact::Kkt<T> {
-    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let contact::Kkt { stationarity, primal, dual, complementarity } = self;
-        let names = ["stationarity", "primal", "dual", "complementarity"];
-        to.collect_map(names.iter().zip([stationarity, primal, dual, complementarity].map(T::text)))
-    }
-}

@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 
 /// A closed interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Interval<T> {
     /// Lower bound.
     pub lower: T,

@@ -79,20 +79,12 @@ pub enum Plane {
 /// Method of solution, with all quantities in SI units.
 ///
 /// The feature `serde` serialises it with the keys of `contact solve --batch`: `method`, `penalty`,
-/// `tolerance`, `max_augmentations`, `initial_multiplier`, with quantities as texts, and deserialises it like
-/// a [`SpringMass`].
+/// `tolerance`, `max_augmentations`, `initial_multiplier`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(
-        tag = "method",
-        rename_all = "snake_case",
-        bound(
-            serialize = "T: crate::number::ExactText",
-            deserialize = "T: crate::number::ExactText + crate::number::Field"
-        )
-    )
+    serde(tag = "method", rename_all = "snake_case")
 )]
 pub enum Method<T> {
     /// Lagrange multiplier (§1.3.1): exact.
@@ -100,24 +92,18 @@ pub enum Method<T> {
     /// Penalty (§1.3.2), with the penetration R/(c + ε).
     Penalty {
         /// ε > 0, in N/m.
-        #[cfg_attr(feature = "serde", serde(with = "crate::number::lossless"))]
         penalty: T,
     },
     /// Augmented Lagrangian (§1.3.3), iterated until the tolerance is met.
     Augmented {
         /// ε > 0, in N/m.
-        #[cfg_attr(feature = "serde", serde(with = "crate::number::lossless"))]
         penalty: T,
         /// Tolerance > 0, in m: the allowed error of the deflection.
-        #[cfg_attr(feature = "serde", serde(with = "crate::number::lossless"))]
         tolerance: T,
         /// Largest k; 0 solves once.
         max_augmentations: u64,
         /// λ₀ in N: 0, or an estimate (warm start).
-        #[cfg_attr(
-            feature = "serde",
-            serde(rename = "initial_multiplier", with = "crate::number::lossless")
-        )]
+        #[cfg_attr(feature = "serde", serde(rename = "initial_multiplier"))]
         start: T,
     },
 }
@@ -199,7 +185,7 @@ crate::number::serialize_as_displayed!(State, Outcome);
 /// For the Lagrange multiplier and the penalty it is the exact solution of the method; for the augmentation
 /// its limit, for every outcome.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::ExactText"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Bounds<T> {
     /// Enclosure of the deflection, in m.
@@ -212,7 +198,7 @@ pub struct Bounds<T> {
 
 /// Result of [`solve`](super::solve).
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::ExactText"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Solution<T> {
     /// State: contact, grazing or separated.
@@ -220,22 +206,17 @@ pub struct Solution<T> {
     /// Outcome of the method.
     pub outcome: Outcome,
     /// u, in m.
-    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub deflection: T,
     /// p = l + u − H of this deflection, in m.
-    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub penetration: T,
     /// N = m g − c u, in N; exactly 0 if the mass is separated, and at grazing by Lagrange multiplier.
-    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub contact_force: T,
     /// Multiplier λ_k of the iterate, in N; `None` for the penalty method.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub multiplier: Option<T>,
     /// Number k of augmentations of the returned iterate; `None` without iteration.
     pub augmentations: Option<u64>,
     /// Bound of |u − u*| of this deflection, in m, if the iteration stagnated. It is below the tolerance if
     /// only the natural residual is not.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub floor: Option<T>,
     /// Enclosures of the exact solution.
     pub bounds: Bounds<T>,

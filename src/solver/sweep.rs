@@ -12,29 +12,22 @@ use rug::{Float, Integer, Rational};
 /// Results of the penalty method for one penalty, with the errors of its two forces relative to the contact
 /// force R of the problem.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound = "T: crate::number::ExactText"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct SweepRow<T> {
     /// ε, in N/m.
-    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub penalty: T,
     /// u, in m.
-    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub deflection: T,
     /// p = l + u − H of this deflection, in m.
-    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub penetration: T,
     /// N = m g − c u, in N, by equilibrium, as [`solve`] returns it.
-    #[cfg_attr(feature = "serde", serde(with = "crate::number::quantity"))]
     pub contact_force: T,
     /// N = ε p, in N, by (1.12); `None` if the mass is separated.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub penalty_force: Option<T>,
     /// |m g − c u − R| / R, exact for the parameters as represented in their scalar; `None` unless R > 0.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub force_error: Option<Exact>,
     /// |ε p − R| / R, likewise.
-    #[cfg_attr(feature = "serde", serde(serialize_with = "crate::number::quantity::option"))]
     pub penalty_force_error: Option<Exact>,
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Options, Problem, quantities};
 use crate::args::{Number, System, exact};
-use crate::output::{self, shortened};
+use crate::output::{self, record, shortened};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
 use spring_mass_contact::chapter::SpringMass;
@@ -10,8 +10,8 @@ use spring_mass_contact::chapter::contact::Kkt;
 use spring_mass_contact::number::{Exact, ExactText, NumberSystem};
 use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{
-    Bounds, Method, Outcome, Plane, Scalar, Solution, State, format_equation, format_short_bound,
-    is_convergence_guaranteed, required_precision, rounding_floor,
+    Bounds, Interval, Iterate, Method, Outcome, Plane, Scalar, Solution, State, format_equation,
+    format_short_bound, is_convergence_guaranteed, required_precision, rounding_floor,
 };
 use std::io::{self, Write};
 use std::iter;
@@ -28,9 +28,21 @@ pub struct Report<'a, T> {
 /// Rows of a trace, computed while they are written, since there can be many.
 struct Trace<'a, T>(&'a Problem<T>, &'a Solution<T>);
 
+/// Returns an iterate with its quantities as texts.
+fn row<T: ExactText>(iterate: Iterate<T>) -> impl Serialize {
+    let [multiplier, deflection, penetration, contact_force] = quantities(&iterate).map(ExactText::text);
+    record! {
+        k: iterate.k,
+        multiplier: multiplier,
+        deflection: deflection,
+        penetration: penetration,
+        contact_force: contact_force,
+    }
+}
+
 impl<T: Scalar + ExactText> Serialize for Trace<'_, T> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_seq(self.0.trace(self.1))
+        to.collect_seq(self.0.trace(self.1).map(row))
     }
 }
 
@@ -40,7 +52,15 @@ impl<T: Scalar + ExactText> Serialize for Report<'_, T> {
         for (name, value) in self.fields() {
             object.serialize_entry(name, &value)?;
         }
-        object.serialize_entry("bounds", &self.solution.bounds)?;
+        let [deflection, penetration, contact_force] = self.bounds();
+        object.serialize_entry(
+            "bounds",
+            &record! {
+                deflection: deflection,
+                penetration: penetration,
+                contact_force: contact_force,
+            },
+        )?;
         object.serialize_entry("kkt", &self.kkt)?;
         if self.options.trace {
             object.serialize_entry("trace", &Trace(self.problem, self.solution))?;
@@ -69,18 +89,22 @@ impl<T: Scalar + ExactText> Report<'_, T> {
         ]
     }
 
+    /// Returns the bounds of u, p and N as texts that still enclose.
+    fn bounds(&self) -> [[String; 2]; 3] {
+        let Bounds { deflection, penetration, contact_force, .. } = &self.solution.bounds;
+        [deflection, penetration, contact_force].map(Interval::texts)
+    }
+
     /// Prints one row, or the rows of a trace.
     pub fn csv(&self, out: &mut dyn Write) -> io::Result<()> {
         if self.options.trace {
-            return output::csv(out, self.problem.trace(self.solution));
+            return output::csv(out, self.problem.trace(self.solution).map(row));
         }
         let (mut names, mut values): (Vec<_>, Vec<_>) =
             self.fields().map(|(name, value)| (name.to_string(), value)).into_iter().unzip();
-        let Bounds { deflection, penetration, contact_force, .. } = &self.solution.bounds;
-        let bounds = [deflection, penetration, contact_force];
-        for (name, interval) in ["deflection", "penetration", "contact_force"].iter().zip(bounds) {
+        for (name, bounds) in ["deflection", "penetration", "contact_force"].iter().zip(self.bounds()) {
             names.extend(["lo", "hi"].map(|end| format!("{name}_{end}")));
-            values.extend(interval.texts().map(Value::from));
+            values.extend(bounds.map(Value::from));
         }
         let Kkt { stationarity, primal, dual, complementarity } = &self.kkt;
         names.extend(["stationarity", "primal", "dual", "complementarity"].map(|name| format!("kkt_{name}")));

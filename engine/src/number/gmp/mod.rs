@@ -13,5 +13,3 @@ pub use mpfr::{Mpfr, PRECISIONS};
 pub use parse::{MAX_EXPONENT, ParseError, RangeError};
 pub use system::{NumberSystem, UnknownNumberSystem};
 pub use text::ExactText;
-#[cfg(feature = "serde")]
-pub use text::{lossless, quantity};

@@ -17,18 +17,6 @@ pub trait ExactText: ToExact + Clone {
     /// ```
     fn text(&self) -> String;
 
-    /// Returns [`text`](Self::text) with the sign of a zero, if the number system has signed zeros.
-    ///
-    /// # Examples
-    ///
-    /// ```
-    /// # use provable::number::ExactText;
-    /// assert_eq!([-0.0, 0.0, -0.1].map(|x: f64| x.signed_text()), ["-0", "0", "-0.1"]);
-    /// ```
-    fn signed_text(&self) -> String {
-        self.text()
-    }
-
     /// Returns the adjacent numbers, the smaller first; for a rational, which has none, the number itself.
     fn neighbours(&self) -> [Self; 2];
 
@@ -72,9 +60,6 @@ macro_rules! machine {
                 let mut text = format!("{:?}", if self.is_zero() { 0.0 } else { *self });
                 text.truncate(text.strip_suffix(".0").map_or(text.len(), str::len));
                 text
-            }
-            fn signed_text(&self) -> String {
-                if self.is_zero() && self.is_sign_negative() { "-0".to_string() } else { self.text() }
             }
             fn neighbours(&self) -> [Self; 2] {
                 [Real::next_down(*self), Real::next_up(*self)]
@@ -182,59 +167,14 @@ macro_rules! serialize_as_displayed {
     )*};
 }
 #[cfg(feature = "serde")]
-serialize_as_displayed!(Exact, super::NumberSystem);
+serialize_as_displayed!(Exact, Mpfr, super::NumberSystem);
 
-/// Serialisation of quantities as texts, so that no reader rounds them.
+/// Reads a number from its text, without rounding.
 #[cfg(feature = "serde")]
-#[doc(hidden)]
-pub mod quantity {
-    use super::ExactText;
-    use serde::{Serialize, Serializer};
-
-    pub fn serialize<T: ExactText, S: Serializer>(x: &T, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_str(&x.text())
-    }
-
-    pub fn option<T: ExactText, S: Serializer>(x: &Option<T>, to: S) -> Result<S::Ok, S::Error> {
-        x.as_ref().map(ExactText::text).serialize(to)
-    }
-
-    pub fn options<T: ExactText, S: Serializer>(x: &[Option<T>; 2], to: S) -> Result<S::Ok, S::Error> {
-        x.each_ref().map(|x| x.as_ref().map(ExactText::text)).serialize(to)
-    }
-}
-
-/// Serialisation and deserialisation of quantities without loss: the same bits for f32 and f64, signed zeros
-/// included, and the same number for rationals. An MPFR float is deserialised as the constant of the same
-/// value, since a text has no precision; `to_mpfr` rounds it.
-#[cfg(feature = "serde")]
-#[doc(hidden)]
-pub mod lossless {
-    use super::{Exact, ExactText};
-    use crate::number::ParseError;
-    use num_traits::Zero;
-    use serde::{Deserialize, Deserializer, Serializer, de::Error};
-    use std::ops::Neg;
-
-    pub fn serialize<T: ExactText, S: Serializer>(x: &T, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_str(&x.signed_text())
-    }
-
-    pub fn deserialize<'de, T, D>(from: D) -> Result<T, D::Error>
-    where
-        T: ExactText + Zero + Neg<Output = T>,
-        D: Deserializer<'de>,
-    {
+impl<'de> serde::Deserialize<'de> for Exact {
+    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let text = String::deserialize(from)?;
-        read(&text).map_err(|error| {
-            let shown: String = text.chars().take(40).collect();
-            D::Error::custom(format!("'{}': {error}", shown.escape_debug()))
-        })
-    }
-
-    fn read<T: ExactText + Zero + Neg<Output = T>>(text: &str) -> Result<T, ParseError> {
-        let x = T::zero().round_from_exact(&text.parse::<Exact>()?)?;
-        Ok(if x.is_zero() && text.starts_with('-') { -x } else { x })
+        text.parse().map_err(|error| serde::de::Error::custom(format!("{text:?}: {error}")))
     }
 }
 
