@@ -3,6 +3,7 @@
 mod advice;
 mod augmentation_monotone;
 mod closed_form;
+mod every_f32;
 mod functionals;
 mod invariances;
 mod kkt;
