@@ -1,7 +1,6 @@
 //! Results as a few lines of text. Shortened values are marked by ≈, and shortened bounds still hold.
 
-use super::{Advice, Interval, Method, Outcome, Recommendation, Scalar, Solution};
-use super::{format_equation, format_short, format_short_bound};
+use super::{Interval, Outcome, Scalar, Solution, format_equation, format_short_bound};
 use crate::chapter::contact::Kkt;
 use crate::number::ExactText;
 use rug::float::Round;
@@ -65,84 +64,6 @@ impl<T: Scalar + ExactText> fmt::Display for Solution<T> {
             Some(multiplier) => write!(f, "\n{} N", format_equation("λ", multiplier)),
             None => Ok(()),
         }
-    }
-}
-
-/// Writes the method with its parameters and their units.
-///
-/// # Examples
-///
-/// ```
-/// # use spring_mass_contact::solver::Method;
-/// let shown = "augmented Lagrangian, ε = 4 N/m, tolerance = 1e-9 m, at most 1000 augmentations, λ₀ = 0 N";
-/// assert_eq!(Method::augmented(4.0).to_string(), shown);
-/// assert_eq!(Method::Penalty { penalty: 4.0 }.to_string(), "penalty, ε = 4 N/m");
-/// ```
-impl<T: ExactText> fmt::Display for Method<T> {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Method::Lagrange => f.write_str("Lagrange multiplier"),
-            Method::Penalty { penalty } => write!(f, "penalty, {} N/m", format_equation("ε", penalty)),
-            Method::Augmented { penalty, tolerance, max_augmentations, start } => write!(
-                f,
-                "augmented Lagrangian, {} N/m, {} m, at most {max_augmentations} augmentations, {} N",
-                format_equation("ε", penalty),
-                format_equation("tolerance", tolerance),
-                format_equation("λ₀", start),
-            ),
-        }
-    }
-}
-
-/// Writes the method, its penalty range and the results of a run, with errors rounded up.
-///
-/// # Examples
-///
-/// ```
-/// # use spring_mass_contact::{chapter::SpringMass, solver::advise};
-/// let system = SpringMass { c: "4", m: "1", g: "10", l: "1", h: "3" }.parse()?;
-/// let advice = advise(&system, &"1/4".parse()?)?;
-/// let shown = "penalty, ε = 41/10 N/m; ε from 401/100 N/m; p = 0.247 m; error of N 0.988 N";
-/// assert_eq!(advice.recommendations[1].to_string(), shown);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-impl<T: ExactText> fmt::Display for Recommendation<T> {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{}", self.method)?;
-        let ends = self.penalty_range.each_ref().map(|end| end.as_ref().map(format_short));
-        match ends {
-            [None, None] => {}
-            [Some(from), None] => write!(f, "; ε from {from} N/m")?,
-            [None, Some(to)] => write!(f, "; ε to {to} N/m")?,
-            [Some(from), Some(to)] => write!(f, "; ε from {from} to {to} N/m")?,
-        }
-        if let Some(k) = self.augmentations {
-            write!(f, "; k = {k}")?;
-        }
-        let p = self.penetration.decimal(DIGITS, Round::Nearest);
-        write!(f, "; p = {p} m; error of N {} N", self.force_error.decimal(DIGITS, Round::Up))
-    }
-}
-
-/// Writes the state, the floor and one line for each recommendation.
-///
-/// # Examples
-///
-/// ```
-/// # use spring_mass_contact::{chapter::SpringMass, solver::advise};
-/// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
-/// let shown = advise(&system, &1e-12)?.to_string();
-/// let first = "contact, floor 2.56e-15 m\nLagrange multiplier; p = 0 m; error of N 0 N\npenalty, ";
-/// assert!(shown.starts_with(first), "{shown}");
-/// # Ok::<(), spring_mass_contact::solver::SolveError>(())
-/// ```
-impl<T: ExactText> fmt::Display for Advice<T> {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match &self.floor {
-            Some(floor) => write!(f, "{}, floor {} m", self.state, floor.decimal(DIGITS, Round::Up))?,
-            None => write!(f, "{}, no floor", self.state)?,
-        }
-        self.recommendations.iter().try_for_each(|choice| write!(f, "\n{choice}"))
     }
 }
 

@@ -46,7 +46,7 @@ fn the_coarsest_parameter_determines_the_guarantee() {
     let advice = advise(&system, &tolerance.to_mpfr(200)).unwrap();
     assert_eq!(advice.floor, Some(coarse));
     let iterates = |choice: &Recommendation<_>| matches!(choice.method, Method::Augmented { .. });
-    assert!(!advice.recommendations.iter().any(iterates), "{advice}");
+    assert!(!advice.recommendations.iter().any(iterates), "{advice:?}");
 }
 
 /// The coarsest parameter determines the penalties, too, and constants are computed without rounding: R/c = 2¹⁰⁰ m, of
