@@ -158,17 +158,6 @@ fn decimals_are_rounded_as_by_the_standard_library() {
     });
 }
 
-/// The logarithm of the number below a power of ten is rounded to that of the power.
-#[test]
-fn scientific_notation_has_the_order_of_the_number() {
-    for order in [-40, -1, 0, 1, 40] {
-        let nines = format!("9.{}e{}", "9".repeat(24), order - 1);
-        for text in [format!("1e{order}"), nines] {
-            assert_eq!(format!("{:e}", read(&text).unwrap()), text);
-        }
-    }
-}
-
 #[test]
 fn formatted_numbers_parse_to_the_same_number() {
     for_all((Binary32::number(), Binary64::number(), rationals()), |((single, _), (double, _), exact)| {

@@ -4,7 +4,6 @@ mod exact;
 mod functions;
 mod mpfr;
 mod parse;
-mod scientific;
 mod system;
 mod text;
 

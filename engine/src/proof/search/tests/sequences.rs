@@ -41,7 +41,7 @@ fn names() -> Vec<(Premise, Statement)> {
         (ReservedName("s₁"), slope.assuming([&above])),
         (ReservedName("x₁"), equal("member", x("x₁"), x("x₁"))),
         // From q, x ← ρ x is the sequence q ρᵏ, not ρᵏ.
-        (ReservedName("q"), induction("powers", 2, [&q / &q], double, [q.clone()])),
+        (ReservedName("q"), induction("powers", 2, [&q * int(1)], double, [q.clone()])),
         (ReservedName("q"), geometric_limit("vanishes", &q / (int(1) + &q * &q), &q, 0)),
         // Assumptions about each member would otherwise apply to the start.
         (ReservedName("x₁"), halves(x("x₁"), half())),
