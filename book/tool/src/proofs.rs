@@ -2,7 +2,7 @@
 
 use spring_mass_contact::{
     claims::{Entry, entries, registry},
-    formula::Hypothesis,
+    formula::Statement,
     proof::{
         prove,
         render::{self, ProofPrinter},
@@ -48,6 +48,12 @@ pub fn heading_of(entry: &Entry, claim: &str) -> String {
     format!("{claim}, {}", entry.label())
 }
 
+/// Returns the hypotheses of a claim as they are stated, without invariants, which are part of the proof.
+pub fn format_hypotheses(claim: &Statement) -> Vec<String> {
+    let stated = claim.stated_hypotheses().iter().filter(|h| claim.hypotheses().contains(h));
+    registry().format_hypotheses(&stated.cloned().collect::<Vec<_>>())
+}
+
 fn page(section: &str, title: &str) -> Page {
     let mut text = format!(
         "# Proofs: {title}\n\n\
@@ -71,17 +77,14 @@ fn render_entry(entry: &Entry) -> String {
     }
     for claim in &entry.claims {
         let printer = ProofPrinter::new(registry());
-        let is_hypothesis = |h: &&Hypothesis| claim.hypotheses().contains(h);
-        let hypotheses: Vec<_> = claim.stated_hypotheses().iter().filter(is_hypothesis).cloned().collect();
-        let lists =
-            [("if", registry().format_hypotheses(&hypotheses)), ("always", printer.invariants(claim))];
-        let mut conditions = lists
-            .into_iter()
-            .filter(|(_, list)| !list.is_empty())
-            .map(|(word, list)| format!("\n\n{word} `{}`", list.join("`, `")))
-            .collect::<String>();
-        if !printer.invariants(claim).is_empty() {
-            conditions += ", which is part of the proof";
+        let mut conditions = String::new();
+        for (word, list, note) in [
+            ("if", format_hypotheses(claim), ""),
+            ("always", printer.invariants(claim), ", which is part of the proof"),
+        ] {
+            if !list.is_empty() {
+                let _ = write!(conditions, "\n\n{word} `{}`{note}", list.join("`, `"));
+            }
         }
         let heading = heading_of(entry, claim.name());
         let _ = write!(text, "\n### {heading}\n\n`{}`{conditions}\n\n", printer.claim(claim));
