@@ -75,7 +75,7 @@ impl Claims {
                 let (heading, anchor) = (heading(entry), anchor(entry));
                 let statement = with_indices(&entry.statement());
                 let _ = write!(text, "\n### {heading} {{#{anchor}}}\n\n{statement}.");
-                if let Some(place) = places.entry(entry) {
+                if let Ok(place) = places.get(entry.equation) {
                     let _ = write!(text, " [In the book]({place}).");
                 }
                 text += "\n\n";

@@ -144,14 +144,9 @@ impl Typesetter {
 
 /// Replaces the characters that Markdown or mdBook would interpret by entities.
 fn hide_from_markdown(html: &str) -> String {
-    html.chars()
-        .map(|c| match c {
-            '_' | '*' | '|' | '\\' | '`' | '~' | '[' | ']' | '{' | '}' | '$' | '\n' => {
-                format!("&#{};", u32::from(c))
-            }
-            _ => c.to_string(),
-        })
-        .collect()
+    let hidden =
+        |c: char| if "_*|\\`~[]{}$\n".contains(c) { format!("&#{};", u32::from(c)) } else { c.to_string() };
+    html.chars().map(hidden).collect()
 }
 
 #[cfg(test)]
