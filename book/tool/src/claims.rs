@@ -40,17 +40,18 @@ impl Claims {
     /// Returns the status line of an equation in Markdown; `up` is the relative path to the root of the book.
     pub fn status(&self, entry: &Entry, up: &str) -> String {
         let rows = self.rows(entry);
-        let claims = rows.chunk_by(|a, b| a.claim == b.claim);
-        let (proved, tested): (Vec<_>, Vec<_>) = claims.partition(|rows| rows[0].scalar.is_none());
-        let count = claim_count(entry);
-        let tested =
-            if tested.is_empty() { String::new() } else { format!(", and {} only tested", tested.len()) };
+        let (count, all) = (claim_count(entry), rows.chunk_by(|a, b| a.claim == b.claim).count());
+        let tested = match all - entry.claims.len() {
+            0 => String::new(),
+            tested => format!(", and {tested} only tested"),
+        };
         // Tested claims are not counted here; the page of claims lists the number systems in which they hold.
         let held = held_in(&rows, |scalar| {
-            let held = proved.iter().filter(|rows| rows.iter().any(|row| row.scalar == Some(scalar))).count();
-            (held < proved.len()).then(|| format!("{held} of {count}"))
+            let names = rows.iter().filter(|row| row.scalar == Some(scalar)).map(|row| row.claim);
+            let held = names.filter(|name| entry.claims.iter().any(|claim| claim.name() == *name)).count();
+            (held < entry.claims.len()).then(|| format!("{held} of {count}"))
         });
-        let (proofs, claims) = (proofs(entry), anchor(entry));
+        let (proofs, claims) = (proofs(entry, &heading(entry)), anchor(entry));
         format!(
             "<div class=\"status\">\n\nproved: [{count}]({up}{proofs}){tested} · {held} · \
              [claims]({up}claims.md#{claims})\n\n</div>"
@@ -67,11 +68,9 @@ impl Claims {
         let mut text = String::new();
         for (section, title) in SECTIONS {
             let _ = write!(text, "\n\n## {title}\n");
-            for entry in entries().iter().filter(|entry| entry.section == section) {
-                let rows = self.rows(entry);
-                if rows.is_empty() {
-                    continue;
-                }
+            let of_section = entries().iter().filter(|entry| entry.section == section);
+            let rows = of_section.map(|entry| (entry, self.rows(entry)));
+            for (entry, rows) in rows.filter(|(_, rows)| !rows.is_empty()) {
                 let (heading, anchor) = (heading(entry), anchor(entry));
                 let statement = with_indices(&entry.statement());
                 let _ = write!(text, "\n### {heading} {{#{anchor}}}\n\n{statement}.");
@@ -92,7 +91,7 @@ fn item(entry: &Entry, rows: &[&ClaimResult]) -> String {
     let recorded = entry.claims.iter().find(|claim| claim.name() == *name);
     let (statement, hypotheses, proved) = match recorded {
         Some(claim) => {
-            let proved = format!("[proved](proofs/{}.md#{})", entry.section, id(&heading_of(entry, name)));
+            let proved = format!("[proved]({})", proofs(entry, &heading_of(entry, name)));
             (format!("`{}`", ProofPrinter::new(registry()).claim(claim)), format_hypotheses(claim), proved)
         }
         None => {
@@ -158,9 +157,9 @@ pub fn anchor(entry: &Entry) -> String {
     format!("claims-{}", slug(entry))
 }
 
-/// Returns the link to the proofs of an entry.
-pub fn proofs(entry: &Entry) -> String {
-    format!("proofs/{}.md#{}", entry.section, id(&heading(entry)))
+/// Returns the link to a heading on the page with the proofs of an entry.
+fn proofs(entry: &Entry, heading: &str) -> String {
+    format!("proofs/{}.md#{}", entry.section, id(heading))
 }
 
 /// Returns the anchor that mdBook generates for a heading.

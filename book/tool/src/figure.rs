@@ -26,11 +26,8 @@ pub struct Figure {
     body: String,
 }
 
-/// Function that draws a figure.
-type Draw = fn() -> Figure;
-
 /// All figures by name.
-const FIGURES: &[(&str, Draw)] = &[
+const FIGURES: &[(&str, fn() -> Figure)] = &[
     ("plane", plane::answer),
     ("equilibrium", plane::intercepts),
     ("free", plane::hanging),
@@ -76,25 +73,21 @@ impl Figure {
 
     /// Returns the figure as an SVG element for a page, which provides the style.
     pub fn inline(&self) -> String {
-        self.element("", "")
+        let Figure { name, height, body, .. } = self;
+        let (title, description) = (escaped(self.title), escaped(&self.description));
+        format!(
+            "<svg viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" \
+             aria-labelledby=\"fig-{name}-title fig-{name}-desc\">\n\
+             <title id=\"fig-{name}-title\">{title}</title>\n\
+             <desc id=\"fig-{name}-desc\">{description}</desc>\n{body}</svg>"
+        )
     }
 
     /// Returns the figure as an SVG file with embedded style, in light or dark colours as the reader prefers.
     pub fn standalone(&self) -> String {
-        let size = format!("width=\"{WIDTH}\" height=\"{}\"", self.height);
-        let attributes = format!(" xmlns=\"http://www.w3.org/2000/svg\" class=\"drawing\" {size}");
-        self.element(&attributes, STYLE) + "\n"
-    }
-
-    fn element(&self, attributes: &str, style: &str) -> String {
-        let Figure { name, height, body, .. } = self;
-        let (title, description) = (escaped(self.title), escaped(&self.description));
-        format!(
-            "<svg{attributes} viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" \
-             aria-labelledby=\"fig-{name}-title fig-{name}-desc\">\n\
-             <title id=\"fig-{name}-title\">{title}</title>\n\
-             <desc id=\"fig-{name}-desc\">{description}</desc>\n{style}{body}</svg>"
-        )
+        let (svg, size) = (self.inline(), format!("width=\"{WIDTH}\" height=\"{}\"", self.height));
+        let head = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"drawing\" {size}");
+        svg.replacen("<svg", &head, 1).replacen("</desc>\n", &format!("</desc>\n{STYLE}"), 1) + "\n"
     }
 }
 

@@ -64,9 +64,7 @@ impl Preprocessor for Equations {
         let mut result = Ok(());
         book.for_each_chapter_mut(|chapter| {
             if result.is_ok() {
-                result = expander.process(chapter, &tags).with_context(|| {
-                    format!("in {}", chapter.path.as_deref().unwrap_or("".as_ref()).display())
-                });
+                result = expander.process(chapter, &tags).with_context(|| format!("in {}", chapter.name));
             }
         });
         result.map(|()| book)
@@ -84,23 +82,12 @@ struct TagExpander {
 }
 
 /// Returns `true` if links to the output of `cargo doc` work: it exists beside the book, and the book is not served,
-/// since a server shows nothing outside of it. The setting `preprocessor.equations.links-documentation` overrides this.
+/// since a server shows nothing outside of it.
 fn links_documentation(context: &PreprocessorContext) -> Result<bool> {
     let config = &context.config;
-    if let Some(setting) = config.get("preprocessor.equations.links-documentation")? {
-        return Ok(setting);
-    }
     let served = config.get::<String>("output.html.live-reload-endpoint")?.is_some();
     let book = context.root.join(&config.build.build_dir);
     Ok(!served && book.parent().is_some_and(|target| target.join("doc").join(CRATE).exists()))
-}
-
-/// Location of a tag in the book.
-struct TagContext {
-    /// Relative path from the page to the root of the book.
-    up: String,
-    /// Level of the preceding heading; 0 before the first.
-    level: usize,
 }
 
 impl TagExpander {
@@ -114,11 +101,10 @@ impl TagExpander {
             })
             .collect();
         let depth = chapter.path.as_deref().map_or(0, |path| path.components().count().saturating_sub(1));
+        let up = "../".repeat(depth);
         chapter.content = replaced(&text, tags, |tag| {
             let before = headings.iter().rfind(|(start, _)| *start < tag.get_match().start());
-            let context =
-                TagContext { up: "../".repeat(depth), level: before.map_or(0, |(_, level)| *level) };
-            self.tag(tag, &context)
+            self.tag(tag, &up, before.map_or(0, |(_, level)| *level))
         })?;
         Ok(())
     }
@@ -142,12 +128,14 @@ impl TagExpander {
         text
     }
 
-    fn tag(&self, tag: &Captures, context: &TagContext) -> Result<String> {
+    /// Returns the replacement of a tag. `up` is the relative path from the page to the root of the book, and `level` that
+    /// of the preceding heading, 0 before the first.
+    fn tag(&self, tag: &Captures, up: &str, level: usize) -> Result<String> {
         let name = tag.get(2).map_or("", |name| name.as_str());
         match &tag[1] {
-            "eq" => self.equation(entry(name).with_context(|| format!("no equation ({name})"))?, context),
-            "ref" => Ok(format!("[({name})]({}{})", context.up, self.places.get(name)?)),
-            "source" => self.source(name, context),
+            "eq" => self.equation(entry(name).with_context(|| format!("no equation ({name})"))?, up, level),
+            "ref" => Ok(format!("[({name})]({}{})", up, self.places.get(name)?)),
+            "source" => self.source(name, up),
             "figure" => self.figure(name),
             "bench" => bench::html(),
             "live" => {
@@ -161,26 +149,26 @@ impl TagExpander {
     }
 
     /// Renders the box of an equation.
-    fn equation(&self, entry: &Entry, context: &TagContext) -> Result<String> {
+    fn equation(&self, entry: &Entry, up: &str, level: usize) -> Result<String> {
         let (number, label) = (entry.equation, entry.label());
         let latex = entry.latex().with_context(|| format!("{label} has no formula"))?;
-        let (mut shown, mut folded) = (String::new(), self.claims.status(entry, &context.up) + "\n\n");
+        let (mut shown, mut folded) = (String::new(), self.claims.status(entry, up) + "\n\n");
         // A function of several equations is printed with the first and linked from the others.
         for (i, function) in entry.functions.iter().enumerate() {
             let first = places::first_with(function).context("listed")?;
             let item = Item::read(&self.folder, function)?;
             if first != number {
-                let printed = format!(", printed at [({first})]({}{})", context.up, self.places.get(first)?);
-                folded += &(self.caption(function, &item, &printed, context)? + "\n");
+                let printed = format!(", printed at [({first})]({}{})", up, self.places.get(first)?);
+                folded += &(self.caption(function, &item, &printed, up)? + "\n");
             } else if let (0, Some(body)) = (i, item.body()) {
                 // The line that computes the equation is printed, the rest is folded.
                 shown = format!("<div class=\"source\">\n\n{}</div>\n\n", listing(&body));
-                folded += &(self.caption(function, &item, "", context)? + "\n" + &listing(&item.code));
+                folded += &(self.caption(function, &item, "", up)? + "\n" + &listing(&item.code));
             } else {
-                folded += &self.source(function, context)?;
+                folded += &self.source(function, up)?;
             }
         }
-        let (level, title, anchor) = ("#".repeat(context.level + 1), entry.title, places::anchor(number));
+        let (level, title, anchor) = ("#".repeat(level + 1), entry.title, places::anchor(number));
         let (formula, count) = (self.typesetter.display(&latex)?, claims::claim_count(entry));
         Ok(format!(
             "\n\n<div class=\"equation\">\n\n{level} Equation {number} · {title} {{#{anchor}}}\n\n\
@@ -191,8 +179,7 @@ impl TagExpander {
 
     fn figure(&self, name: &str) -> Result<String> {
         let figure = figure::figure(name).with_context(|| format!("no figure {name}"))?;
-        let caption = self.typesetter.page(figure.caption)?;
-        let svg = figure.inline();
+        let (svg, caption) = (figure.inline(), self.typesetter.page(figure.caption)?);
         Ok(format!(
             "\n\n<figure class=\"drawing\" id=\"fig-{name}\">\n{svg}\n<figcaption>{caption}</figcaption>\n</figure>\n\n"
         ))
@@ -200,7 +187,7 @@ impl TagExpander {
 
     /// Renders the body of a function, followed by a folded block with the whole function. A function that no box shows
     /// has an anchor.
-    fn source(&self, function: &str, context: &TagContext) -> Result<String> {
+    fn source(&self, function: &str, up: &str) -> Result<String> {
         let item = Item::read(&self.folder, function)?;
         let id = match places::first_with(function) {
             None => format!(" id=\"fn-{}\"", function.replace("::", "-")),
@@ -211,17 +198,17 @@ impl TagExpander {
             let body = listing(&body);
             format!("{body}<details><summary>the whole function</summary>\n\n{whole}</details>\n\n")
         });
-        let caption = self.caption(function, &item, "", context)?;
+        let caption = self.caption(function, &item, "", up)?;
         Ok(format!("\n\n<div class=\"source\"{id}>\n{caption}\n{shown}</div>\n\n"))
     }
 
     /// Returns the caption of a listing: the name of the function, with links to its documentation and source if these
     /// work, and `rest`.
-    fn caption(&self, function: &str, item: &Item, rest: &str, context: &TagContext) -> Result<String> {
+    fn caption(&self, function: &str, item: &Item, rest: &str, up: &str) -> Result<String> {
         let mut links = String::new();
         if self.links_documentation {
             let (module, name) = function.split_once("::").context("a path")?;
-            let (docs, kind, (first, last)) = (format!("{}../doc", context.up), item.kind, item.lines);
+            let (docs, kind, (first, last)) = (format!("{}../doc", up), item.kind, item.lines);
             links = format!(
                 " · [documentation]({docs}/{CRATE}/chapter/{module}/{kind}.{name}.html) · \
                  [source]({docs}/src/{CRATE}/chapter/{module}.rs.html#{first}-{last})"

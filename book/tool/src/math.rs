@@ -15,8 +15,8 @@ const PUNCTUATION: [char; 7] = ['.', ',', ';', ':', ')', '?', '”'];
 /// Characters that must not end a line.
 const OPENING: [char; 2] = ['(', '“'];
 
-/// End mark of a proof.
-const END_MARK: &str = "<span class=\"qed\">□</span>";
+/// End mark of a proof, which stays with the last word.
+const END_MARK: &str = "&nbsp;<span class=\"qed\">□</span>";
 
 /// Relations after which a long formula may be broken.
 const RELATIONS: [&str; 12] = ["=", "&lt;", "&gt;", "≤", "≥", "≠", "≈", "∼", "≪", "≫", "→", "⇒"];
@@ -40,24 +40,18 @@ impl Typesetter {
 
     /// Typesets the `$…$` and `$$…$$` of a page; code is left unchanged.
     pub fn page(&self, text: &str) -> Result<String> {
+        let text = &text.replace(r" $\square$", END_MARK);
         let mut result = String::with_capacity(text.len());
         let (mut end, mut in_head) = (0, false);
         for (event, range) in
             Parser::new_ext(text, Options::ENABLE_MATH | Options::ENABLE_TABLES).into_offset_iter()
         {
             let html = match event {
-                Event::Start(Tag::TableHead) => {
-                    in_head = true;
+                Event::Start(Tag::TableHead) | Event::End(TagEnd::TableHead) => {
+                    in_head = !in_head;
                     continue;
                 }
-                Event::End(TagEnd::TableHead) => {
-                    in_head = false;
-                    continue;
-                }
-                Event::InlineMath(latex) if in_head => {
-                    self.labelled(&self.html(&latex, MathDisplay::Inline)?)
-                }
-                Event::InlineMath(latex) if *latex == *r"\square" => END_MARK.to_string(),
+                Event::InlineMath(latex) if in_head => self.labelled(&latex)?,
                 Event::InlineMath(latex) => self.inline(&latex)?,
                 Event::DisplayMath(latex) => {
                     format!("<span class=\"formula\">{}</span>", self.display(&latex)?)
@@ -68,11 +62,7 @@ impl Typesetter {
             end = range.end;
             let before = result.len() - result.trim_end_matches(OPENING).len();
             let after = text[end..].len() - text[end..].trim_start_matches(PUNCTUATION).len();
-            if html == END_MARK {
-                // It stays with the last word.
-                result.truncate(result.trim_end_matches(' ').len());
-                result += &format!("&nbsp;{html}");
-            } else if before + after == 0 {
+            if before + after == 0 {
                 result += &html;
             } else {
                 // Punctuation stays with the formula.
@@ -85,10 +75,11 @@ impl Typesetter {
         Ok(result + &text[end..])
     }
 
-    /// Adds the letters of a formula as its label: accessibility tools treat a header of MathML alone as empty.
-    fn labelled(&self, html: &str) -> String {
-        let letters = self.tag.replace_all(html, "");
-        html.replacen("<math", &format!("<math aria-label=\"{letters}\""), 1)
+    /// Typesets a formula with its letters as a label: accessibility tools treat a header of MathML alone as empty.
+    fn labelled(&self, latex: &str) -> Result<String> {
+        let html = self.html(latex, MathDisplay::Inline)?;
+        let label = format!("<math aria-label=\"{}\"", self.tag.replace_all(&html, ""));
+        Ok(html.replacen("<math", &label, 1))
     }
 
     /// Typesets an inline formula.

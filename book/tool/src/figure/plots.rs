@@ -9,6 +9,14 @@ use spring_mass_contact::number::{Exact, NumberSystem, PositivePart, ToExact};
 use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::solver::{self, Scalar};
 
+/// Draws an energy of the example with its minimum, which is at the deflection `u`.
+fn curve(plot: &mut Plot, class: &str, name: &str, u: Exact, energy: impl Fn(&Exact) -> Exact) {
+    let system = example(10);
+    plot.graph(class, 60, |p| float(&energy(&deflection(&system, p))));
+    let at = point(&system, &u, &energy(&u));
+    plot.mark(class, at, &format!("{name}: p = {}, {} J", number(at.0), number(at.1)));
+}
+
 /// Draws the functionals of the methods and their minima.
 pub fn energies() -> Figure {
     let (system, eps) = (example(10), Exact::from(4));
@@ -18,20 +26,13 @@ pub fn energies() -> Figure {
         Axis::linear("energy in joules", -12.6, -11.4, 0.2),
         310.0,
     );
-    type Energy<'a> = &'a dyn Fn(&Exact) -> Exact;
-    let curves: [(&str, &str, Exact, Energy); 4] = [
-        ("spring", "Π", structure::deflection(&system), &|u| structure::potential_energy(&system, u)),
-        ("penalty dashed", "Πp", penalty::deflection(&system, &eps), &|u| penalty::energy(&system, &eps, u)),
-        ("plane", "ℒ", lagrange::deflection(&system), &|u| lagrange::functional(&system, u, &multiplier)),
-        ("iterate dotted", "L", augmented::deflection(&system, &eps, &guess), &|u| {
-            augmented::functional(&system, &eps, &guess, u)
-        }),
-    ];
-    for (class, name, u, energy) in curves {
-        plot.graph(class, 60, |p| float(&energy(&deflection(&system, p))));
-        let at = point(&system, &u, &energy(&u));
-        plot.mark(class, at, &format!("{name}: p = {}, {} J", number(at.0), number(at.1)));
-    }
+    let s = &system;
+    curve(&mut plot, "spring", "Π", structure::deflection(s), |u| structure::potential_energy(s, u));
+    curve(&mut plot, "penalty dashed", "Πp", penalty::deflection(s, &eps), |u| penalty::energy(s, &eps, u));
+    curve(&mut plot, "plane", "ℒ", lagrange::deflection(s), |u| lagrange::functional(s, u, &multiplier));
+    curve(&mut plot, "iterate dotted", "L", augmented::deflection(s, &eps, &guess), |u| {
+        augmented::functional(s, &eps, &guess, u)
+    });
     plot.text("spring", (0.5, -12.5), (0.0, -10.0), "Π");
     plot.text("penalty", (0.42, -12.12), (4.0, 14.0), "Π_p");
     plot.text("plane", (0.3, -11.82), (-6.0, -6.0), "ℒ");
@@ -109,8 +110,8 @@ fn errors<T: Scalar + ToExact>(penalties: &[Exact], round: impl Fn(&Exact) -> T)
 
 /// Draws the errors of the penalty method in three precisions, with the best penalties.
 pub fn rounding() -> Figure {
-    let power = |n: i32| format!("1e{n}").parse::<Exact>().expect("a power of ten");
-    let penalties = solver::penalties(&power(0), &power(38), 77).expect("ends in order");
+    let last = "1e38".parse().expect("a decimal");
+    let penalties = solver::penalties(&Exact::from(1), &last, 77).expect("ends in order");
     const BITS: u32 = 113;
     let single = |x: &Exact| x.to_f32().expect("within range");
     let mut plot = Plot::new(
@@ -118,20 +119,13 @@ pub fn rounding() -> Figure {
         Axis::powers("relative error", -40, 0, 10),
         340.0,
     );
-    // Each with the error at which its rising curve is labelled, and the place of the label of the falling curve.
     let measured = [
-        ("f32", NumberSystem::F32, errors(&penalties, single), 0.05, (-1.0, -8.0)),
-        ("f64", NumberSystem::F64, errors(&penalties, float), 0.05, (-1.0, -8.0)),
-        ("113 bits", NumberSystem::Mpfr(BITS), errors(&penalties, |x| x.to_mpfr(BITS)), 1e-10, (-16.0, 4.0)),
+        ("f32", NumberSystem::F32, errors(&penalties, single)),
+        ("f64", NumberSystem::F64, errors(&penalties, float)),
+        ("113 bits", NumberSystem::Mpfr(BITS), errors(&penalties, |x| x.to_mpfr(BITS))),
     ];
     let system = default();
-    for (name, numbers, [deflection, force, penalty_force], labelled, aside) in measured {
-        let rising = penalty_force.iter().rfind(|(_, error)| *error < labelled).expect("a small error");
-        plot.text("penalty", *rising, (10.0, 6.0), name);
-        plot.text("", *force.last().expect("a row"), aside, name);
-        plot.line("penalty", penalty_force);
-        plot.line("spring", force);
-        plot.line("fine dotted", deflection);
+    for (name, numbers, [deflection, force, penalty_force]) in measured {
         let eta = numbers.unit_roundoff();
         let best = solver::best_penalty(&system, &eta).ok().flatten().expect("there is contact");
         let bound = solver::penalty_force_bound(&system, &best, &eta);
@@ -139,6 +133,13 @@ pub fn rounding() -> Figure {
         let (at, shown) = ((float(&best), float(&bound)), bound.decimal(2, Round::Up));
         plot.mark("penalty", at, &format!("{name} ε* = {:.1e}, error at most {shown}", at.0));
         plot.text("penalty", at, (-7.0, 14.0), "ε^{∗}");
+        // The rising curve is labelled a third of its way up, the falling one below its end.
+        let rising = penalty_force.iter().rfind(|(_, error)| *error < at.1.powf(0.7)).expect("a small error");
+        plot.text("penalty", *rising, (10.0, 6.0), name);
+        plot.text("", *force.last().expect("a row"), (-1.0, 16.0), name);
+        plot.line("penalty", penalty_force);
+        plot.line("spring", force);
+        plot.line("fine dotted", deflection);
     }
     plot.text("penalty", (1e26, 1e-4), (-1.0, 0.0), "ε p");
     plot.text("spring", (1e27, 1e-25), (10.0, 0.0), "m g − c u");

@@ -1,7 +1,7 @@
 //! The elements of SVG that the figures use.
 
 use regex::{Captures, Regex};
-use std::{fmt::Write, sync::LazyLock};
+use std::sync::LazyLock;
 
 /// Position in pixels, to the right and down from the upper left corner.
 pub type Point = (f64, f64);
@@ -19,7 +19,7 @@ impl Svg {
     pub fn path(&mut self, class: &str, points: &[Point]) {
         let texts: Vec<_> =
             points.iter().map(|&(x, y)| format!("{} {}", rounded(x, 2), rounded(y, 2))).collect();
-        self.element(&format!("<path class=\"{class}\" d=\"M{}\"/>", texts.join("L")));
+        self.body += &format!("<path class=\"{class}\" d=\"M{}\"/>\n", texts.join("L"));
     }
 
     /// Draws a line with an arrowhead at its end.
@@ -43,9 +43,9 @@ impl Svg {
     /// Draws a disc with a tooltip.
     pub fn disc(&mut self, class: &str, (x, y): Point, radius: f64, tooltip: &str) {
         let (x, y, title) = (rounded(x, 2), rounded(y, 2), escaped(tooltip));
-        self.element(&format!(
-            "<circle class=\"{class}\" cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"><title>{title}</title></circle>"
-        ));
+        self.body += &format!(
+            "<circle class=\"{class}\" cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"><title>{title}</title></circle>\n"
+        );
     }
 
     /// Writes a text beside a point, on the side of its offset, or centred if it is not offset to a side.
@@ -56,14 +56,8 @@ impl Svg {
             _ => "start",
         };
         let (x, y, text) = (rounded(at.0 + right, 2), rounded(at.1 + down, 2), typeset(text));
-        self.element(&format!(
-            "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>"
-        ));
-    }
-
-    /// Adds an element.
-    pub fn element(&mut self, element: &str) {
-        writeln!(self.body, "{element}").expect("writing to a string succeeds");
+        self.body +=
+            &format!("<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>\n");
     }
 }
 
