@@ -3,16 +3,16 @@
 //!
 //! They require node, which `NODE=path` selects.
 
+use crate::files::text;
+use book_tool::PAGES;
 use book_tool::bench::{MODEL, PAGE, formulas, functions, script};
 use regex::Regex;
-use serde_json::{Value, json};
+use serde_json::{Value, from_str, json};
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, system};
-use spring_mass_contact::number::{Exact, Field, PositivePart, ToExact};
+use spring_mass_contact::number::{Exact, PositivePart, ToExact};
 use std::{
-    collections::BTreeSet,
     env,
     fmt::Write as _,
-    fs,
     io::Write as _,
     process::{Command, Stdio},
 };
@@ -37,9 +37,7 @@ fn node(script: &str, input: &Value) -> String {
 
 fn assert_same_lines(expected: &str, found: &str) {
     for (i, (expected, found)) in expected.lines().zip(found.lines()).enumerate() {
-        for (expected, found) in expected.split(' ').zip(found.split(' ')) {
-            assert_eq!(found, expected, "line {i}: found, expected");
-        }
+        assert_eq!(found, expected, "line {i}: found, expected");
     }
     assert_eq!(found.lines().count(), expected.lines().count());
 }
@@ -50,11 +48,17 @@ fn bits(x: f64) -> String {
 }
 
 /// Parameters of a run.
-struct Case {
-    system: SpringMass<f64>,
-    eps: f64,
-    lambda: f64,
+struct Case<T> {
+    system: SpringMass<T>,
+    eps: T,
+    lambda: T,
     steps: usize,
+}
+
+impl<T> Case<T> {
+    fn map<U>(&self, f: impl Fn(&T) -> U) -> Case<U> {
+        Case { system: self.system.map(&f), eps: f(&self.eps), lambda: f(&self.lambda), steps: self.steps }
+    }
 }
 
 /// Generator of pseudorandom numbers.
@@ -78,7 +82,7 @@ impl Random {
     }
 }
 
-fn cases() -> Vec<Case> {
+fn cases() -> Vec<Case<f64>> {
     let default = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
     let systems = [
         default,
@@ -114,153 +118,76 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Writes one line per step, with the value of every function.
-fn lines<T: PositivePart>(
-    text: &mut String,
-    (system, eps, lambda, n): (&SpringMass<T>, &T, &T, &T),
-    steps: usize,
-    show: impl Fn(&T) -> String,
-) {
-    for one in [false, true] {
-        let mut lambda = lambda.clone();
-        for _ in 0..steps {
+/// Runs for the bench, and the lines that it has to print: for each plane the values of every function at each step, and
+/// the verdict after them.
+#[derive(Default)]
+struct Runs {
+    input: Vec<Value>,
+    expected: String,
+}
+
+impl Runs {
+    /// Adds a run; `n` is two to the power of the number of digits.
+    fn add<T: PositivePart + ToExact>(
+        &mut self,
+        numbers: &str,
+        case: &Case<T>,
+        n: &T,
+        show: impl Fn(&T) -> String,
+    ) {
+        let Case { system, eps, lambda: start, steps } = case;
+        let SpringMass { c, m, g, l, h } = system;
+        let given = [c, m, g, l, h, eps, start, n];
+        // Signed zeros are different floats and equal numbers.
+        let is_valid = |x: &T| x.to_exact().is_ok() && show(x) != bits(-0.0);
+        let judged =
+            numbers != "exact" && given.into_iter().all(is_valid) && *c != T::zero() && *eps != T::zero();
+        let head = [json!(numbers), json!(steps), json!(judged)];
+        self.input.push(head.into_iter().chain(given.map(|x| json!(show(x)))).collect());
+        for one in [false, true] {
             let (deflection, update): (fn(&_, &_, &_) -> _, fn(&_, &_, &_, &_) -> _) = if one {
                 (augmented::unilateral_deflection, augmented::unilateral_update)
             } else {
                 (augmented::deflection, augmented::update)
             };
-            let u = deflection(system, eps, &lambda);
-            for (name, value) in functions(system, eps, &lambda, &u, n) {
-                write!(text, "{name}={} ", show(&value)).unwrap();
+            let mut lambda = start.clone();
+            for _ in 0..*steps {
+                let u = deflection(system, eps, &lambda);
+                for (name, value) in functions(system, eps, &lambda, &u, n) {
+                    write!(self.expected, "{name}={} ", show(&value)).unwrap();
+                }
+                self.expected.push('\n');
+                lambda = update(system, eps, &lambda, &u);
             }
-            text.push('\n');
-            lambda = update(system, eps, &lambda, &u);
+            let u = deflection(system, eps, &lambda);
+            let next = update(system, eps, &lambda, &u);
+            let later = update(system, eps, &next, &deflection(system, eps, &next));
+            let verdict = || verdict(system, [&lambda, &next, &later, &u], one, &n.to_exact().unwrap());
+            writeln!(self.expected, "{}", if judged { verdict() } else { String::new() }).unwrap();
         }
     }
 }
 
-/// Script that prints these lines by the bench; `read` parses the numbers of the input and `show` formats numbers.
-const LINES: &str = r#"
-const text = [];
-for (const [numbers, steps, ...given] of input) {
-  const { f } = systems[numbers], [read, show] = numbers === "exact" ? [parse, ratio] : [float, hex];
-  const [c, m, g, l, H, eps, start, n] = given.map(read);
-  for (const plane of ["both", "one"]) {
-    const step = recursion({ numbers, plane }, { c, m, g, l, H, eps });
-    for (let k = 0, lambda = start; k < steps; k += 1) {
-      const { u, next } = step(lambda);
-      const all = { c, m, g, l, H, eps, lambda, u, n };
-      text.push(Object.entries(f).map(([name, f]) => `${name}=${show(f(all))} `).join(""));
-      lambda = next;
-    }
-  }
-}
-console.log(text.join("\n"));
-"#;
-
-fn bench_input<T>(
-    name: &str,
-    steps: usize,
-    all: (&SpringMass<T>, &T, &T, &T),
-    show: impl Fn(&T) -> String,
-) -> Value {
-    let (SpringMass { c, m, g, l, h }, eps, lambda, n) = all;
-    let texts = [c, m, g, l, h, eps, lambda, n].map(show);
-    let head = [json!(name), json!(steps)];
-    Value::Array(head.into_iter().chain(texts.map(Value::from)).collect())
-}
-
-#[test]
-#[ignore = "requires node"]
-fn floats_agree_bit_for_bit() {
-    let (mut text, mut input) = (String::new(), Vec::new());
-    for Case { system, eps, lambda, steps } in cases() {
-        let (n, show) = (2.0_f64.powi(53), |x: &f64| bits(*x));
-        input.push(bench_input("f64", steps, (&system, &eps, &lambda, &n), show));
-        lines(&mut text, (&system, &eps, &lambda, &n), steps, show);
-
-        let (n, show) = (2.0_f32.powi(24), |x: &f32| bits(f64::from(*x)));
-        let (system, eps, lambda) = (system.map(|&x| x as f32), eps as f32, lambda as f32);
-        input.push(bench_input("f32", steps, (&system, &eps, &lambda, &n), show));
-        lines(&mut text, (&system, &eps, &lambda, &n), steps, show);
-    }
-    assert!(text.contains("NaN") && text.contains("7ff0000000000000") && text.contains("8000000000000000"));
-    let found = printed(&format!("{FLOAT}{LINES}"), &input.into());
-    assert_same_lines(&text, &found);
-}
-
-#[test]
-#[ignore = "requires node"]
-fn fractions_agree() {
-    let (mut text, mut input) = (String::new(), Vec::new());
-    let mut draw = Random(2);
-    for i in 0..30 {
-        let mut decimal = |signed: bool| {
-            let digits = draw.next() as i64 % 100_000;
-            let sign = if signed && draw.next().is_multiple_of(2) { -1 } else { 1 };
-            Exact::int((sign * if signed { digits } else { digits + 1 }) as i32)
-                / Exact::int(10_i32.pow(i % 5))
-        };
-        let system = SpringMass {
-            c: decimal(false),
-            m: decimal(false),
-            g: decimal(true),
-            l: decimal(true),
-            h: decimal(true),
-        };
-        let (eps, lambda, n) = (decimal(false), decimal(true), Exact::power_of_two(24));
-        let steps = if i == 0 { 150 } else { 10 };
-        input.push(bench_input("exact", steps, (&system, &eps, &lambda, &n), Exact::to_string));
-        lines(&mut text, (&system, &eps, &lambda, &n), steps, Exact::to_string);
-    }
-    // The bench refuses texts of this length, but its own numbers may be as long.
-    let found = printed(&format!("{FLOAT}{LINES}"), &input.into());
-    assert_same_lines(&text, &found);
-}
-
-/// Conversion of floats by their bits, and of fractions in the crate's format.
-const FLOAT: &str = r#"
-const ratio = ({ n, d }) => (d === 1n ? `${n}` : `${n}/${d}`);
-const number = new Float64Array(1), word = new BigUint64Array(number.buffer);
-const float = text => { word[0] = BigInt("0x" + text); return number[0]; };
-const hex = x => { number[0] = x; return Number.isNaN(x) ? "NaN" : word[0].toString(16).padStart(16, "0"); };
-"#;
-
-/// Returns the expected verdict on step `k` by its definition, with the exact penetration of the computed deflection and
-/// the error of the force. The verdict is empty if it is not defined here.
-fn kind<T: PositivePart + ToExact>(
+/// Returns the verdict by its definition, with the exact penetration of the computed deflection and the error of the
+/// force, from three successive multipliers and the deflection at the first. The verdict is empty if it is not defined
+/// here.
+fn verdict<T: PositivePart + ToExact>(
     system: &SpringMass<T>,
-    eps: &T,
-    start: &T,
+    values: [&T; 4],
     one: bool,
-    k: usize,
-    precision: &Exact,
+    n: &Exact,
 ) -> String {
-    let step = |lambda: &T| {
-        let u = if one {
-            augmented::unilateral_deflection(system, eps, lambda)
-        } else {
-            augmented::deflection(system, eps, lambda)
-        };
-        let update = if one { augmented::unilateral_update } else { augmented::update };
-        (update(system, eps, lambda, &u), u)
-    };
-    let lambda = (0..k).fold(start.clone(), |lambda, _| step(&lambda).0);
-    let (next, u) = step(&lambda);
-    let exact = |x: &T| x.to_exact().ok();
-    let (Some(before), Some(after), Some(later), Some(exact_u)) =
-        (exact(&lambda), exact(&next), exact(&step(&next).0), exact(&u))
-    else {
+    let [Ok(before), Ok(after), Ok(later), Ok(u)] = values.map(ToExact::to_exact) else {
         return String::new();
     };
-    let exact_system = system.try_map(|x| x.to_exact()).unwrap();
+    let exact_system = system.try_map(ToExact::to_exact).unwrap();
     let reaction = system::reaction(&exact_system);
     let force = if one { contact::contact_force(&exact_system) } else { reaction.clone() };
-    let (zero, p) = (Exact::from(0), contact::penetration(&exact_system, &exact_u));
+    let (zero, p) = (Exact::from(0), contact::penetration(&exact_system, &u));
     let error = (after.clone() - &force).abs();
     // Fewer than half of the digits of the force are right.
-    let lost = error.clone() * &error * precision > force.clone() * &force;
-    let kind = if contact::penetration(system, &u) == T::zero() && lost {
+    let lost = error.clone() * &error * n > force.clone() * &force;
+    let kind = if contact::penetration(system, values[3]) == T::zero() && lost {
         "false zero"
     } else if one && reaction < zero && after == zero {
         "separated"
@@ -274,74 +201,69 @@ fn kind<T: PositivePart + ToExact>(
     format!("{kind} {p} {error}")
 }
 
+/// Conversion of floats by their bits, and of fractions in the crate's format.
+const FLOAT: &str = r#"
+const ratio = ({ n, d }) => (d === 1n ? `${n}` : `${n}/${d}`);
+const number = new Float64Array(1), word = new BigUint64Array(number.buffer);
+const float = text => { word[0] = BigInt("0x" + text); return number[0]; };
+const hex = x => { number[0] = x; return Number.isNaN(x) ? "NaN" : word[0].toString(16).padStart(16, "0"); };
+"#;
+
 #[test]
 #[ignore = "requires node"]
-fn verdicts_agree_with_their_definitions() {
-    const KINDS: &str = r#"
-const known = ["false zero", "separated", "fixed point", "2-cycle"];
-for (const [numbers, k, ...given] of input) {
-  const [c, m, g, l, H, eps, lambda] = given.map(float);
+fn runs_agree_bit_for_bit() {
+    const LINES: &str = r#"
+const text = [], known = ["false zero", "separated", "fixed point", "2-cycle"];
+for (const [numbers, steps, judged, ...given] of input) {
+  const { f } = systems[numbers], [read, show] = numbers === "exact" ? [parse, ratio] : [float, hex];
+  const [c, m, g, l, H, eps, start, n] = given.map(read);
   for (const plane of ["both", "one"]) {
-    const { kind, p, error } = verdict(run({ numbers, plane, k }, { c, m, g, l, H, eps, lambda }));
-    console.log(p ? `${known.includes(kind) ? kind : ""} ${ratio(p)} ${ratio(error)}` : "");
+    const step = recursion({ numbers, plane }, { c, m, g, l, H, eps });
+    for (let k = 0, lambda = start; k < steps; k += 1) {
+      const { u, next } = step(lambda);
+      const all = { c, m, g, l, H, eps, lambda, u, n };
+      text.push(Object.entries(f).map(([name, f]) => `${name}=${show(f(all))} `).join(""));
+      lambda = next;
+    }
+    const { kind, p, error } = judged ? verdict(run({ numbers, plane, k: steps }, { c, m, g, l, H, eps, lambda: start })) : {};
+    text.push(p ? `${known.includes(kind) ? kind : ""} ${ratio(p)} ${ratio(error)}` : "");
   }
 }
+console.log(text.join("\n"));
 "#;
-    let (mut text, mut input) = (String::new(), Vec::new());
-    let [f32_digits, f64_digits] = [24, 53].map(Exact::power_of_two);
-    // Signed zeros are different floats and equal numbers.
-    let valid = |x: f64| x.is_finite() && (x != 0.0 || x.is_sign_positive());
-    for Case { system, eps, lambda, steps } in cases() {
-        let all = [system.c, system.m, system.g, system.l, system.h, eps, lambda];
-        if all.into_iter().all(valid) {
-            let show = |x: &f64| bits(*x);
-            input.push(bench_input("f64", steps, (&system, &eps, &lambda, &0.0), show));
-            for one in [false, true] {
-                writeln!(text, "{}", kind(&system, &eps, &lambda, one, steps, &f64_digits)).unwrap();
-            }
-        }
-        if all.into_iter().all(|x| valid((x as f32).into())) && system.c as f32 > 0.0 && eps as f32 > 0.0 {
-            let (system, eps, lambda) = (system.map(|&x| x as f32), eps as f32, lambda as f32);
-            input.push(bench_input("f32", steps, (&system, &eps, &lambda, &0.0), |x| bits(f64::from(*x))));
-            for one in [false, true] {
-                writeln!(text, "{}", kind(&system, &eps, &lambda, one, steps, &f32_digits)).unwrap();
-            }
+    let mut runs = Runs::default();
+    for case in cases() {
+        runs.add("f64", &case, &2.0_f64.powi(53), |x| bits(*x));
+        let single = case.map(|x| *x as f32);
+        runs.add("f32", &single, &2.0_f32.powi(24), |x| bits(f64::from(*x)));
+        // The bench reads numbers of at most 40 characters; its own may be longer.
+        let SpringMass { c, m, g, l, h } = &single.system;
+        let all = [c, m, g, l, h, &single.eps, &single.lambda].map(|x| x.to_exact().ok());
+        if all.iter().all(|x| x.as_ref().is_some_and(|x| x.to_string().len() <= 40)) && case.steps < 60 {
+            let exact = single.map(|x| x.to_exact().unwrap());
+            runs.add("exact", &exact, &Exact::power_of_two(24), Exact::to_string);
         }
     }
-    for kind in ["false zero", "separated", "fixed point", "2-cycle", ""] {
-        assert!(
-            text.lines().any(|line| line.starts_with(&format!("{kind} "))),
-            "no case has the verdict {kind:?}"
-        );
+    for needed in [
+        "=NaN ",
+        "=7ff0000000000000 ",
+        "=8000000000000000 ",
+        "/",
+        "false zero ",
+        "separated ",
+        "fixed point ",
+        "2-cycle ",
+    ] {
+        assert!(runs.expected.contains(needed), "no case with {needed}");
     }
-    let found = printed(&format!("{FLOAT}{KINDS}"), &input.into());
-    assert_same_lines(&text, &found);
+    assert!(runs.input.iter().filter(|run| run[0] == "exact").count() > 50);
+    assert_same_lines(&runs.expected, &printed(&format!("{FLOAT}{LINES}"), &runs.input.into()));
 }
 
 /// The title of a link to the bench is the verdict that the bench will show.
 #[test]
 #[ignore = "requires node"]
 fn links_to_the_bench_have_the_right_verdict() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
-    let (mut input, mut text) = (Vec::new(), String::new());
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "md") {
-            let page = fs::read_to_string(&path).unwrap();
-            for link in page.split("augmented.html?").skip(1) {
-                let link = link.split(')').next().unwrap();
-                let (query, verdict) = link
-                    .split_once("#bench \"")
-                    .unwrap_or_else(|| panic!("{}: {link} has no verdict", path.display()));
-                input.push(json!(format!("?{query}")));
-                let mut pairs: Vec<_> = query.split('&').collect();
-                pairs.sort_unstable();
-                writeln!(text, "{}, {}", verdict.trim_end_matches('"'), pairs.join("&")).unwrap();
-            }
-        }
-    }
-    let verdicts: BTreeSet<_> = text.lines().filter_map(|line| line.split(',').next()).collect();
-    assert_eq!(Vec::from_iter(verdicts), ["2-cycle", "converging", "false zero", "fixed point", "separated"]);
     const ASKED: &str = r#"
 for (const query of input) {
   const question = asked(query), { values, wrong } = numbers(question), result = run(question, values);
@@ -350,8 +272,22 @@ for (const query of input) {
   console.log([verdict(result).kind, address(question).slice(1).split("&").sort().join("&")].join(", ") + ended + Object.keys(wrong));
 }
 "#;
-    let found = printed(ASKED, &input.into());
-    assert_eq!(found, text);
+    let link = Regex::new(r#"augmented\.html(\?[^)#]*)#bench "([^"]*)"\)"#).unwrap();
+    let (mut input, mut expected) = (Vec::new(), String::new());
+    for page in PAGES.iter().map(|name| text(format!("book/src/{name}.md"))) {
+        let links: Vec<_> = link.captures_iter(&page).collect();
+        assert_eq!(links.len(), page.matches("augmented.html?").count(), "a link has no verdict");
+        for link in links {
+            input.push(json!(link[1]));
+            let mut pairs: Vec<_> = link[1][1..].split('&').collect();
+            pairs.sort_unstable();
+            writeln!(expected, "{}, {}", &link[2], pairs.join("&")).unwrap();
+        }
+    }
+    for verdict in ["2-cycle", "converging", "false zero", "fixed point", "separated"] {
+        assert!(expected.contains(&format!("{verdict}, ")), "no link has the verdict {verdict}");
+    }
+    assert_eq!(printed(ASKED, &input.into()), expected);
 }
 
 #[test]
@@ -395,8 +331,7 @@ for (const text of input) {
   }));
 }
 "#;
-    let found = printed(&format!("{FLOAT}{READ}"), &json!(texts));
-    assert_same_lines(&expected, &found);
+    assert_same_lines(&expected, &printed(&format!("{FLOAT}{READ}"), &json!(texts)));
 }
 
 /// Rounded numbers are within half a unit of the last digit.
@@ -436,15 +371,6 @@ fn displayed_numbers_are_rounded_once() {
 fn other_settings_have_verdicts() {
     // The sum c + ε overflows, and the quotient by it is 0: every displayed number looks normal.
     let overflow = "?c=1e38&eps=3e38&numbers=f32";
-    let system = SpringMass { c: 100.0_f32, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
-    let (eps, mut lambda) = (2.99e6, 0.0);
-    let p = [0; 2].map(|_| {
-        let u = augmented::deflection(&system, &eps, &lambda);
-        lambda = augmented::update(&system, &eps, &lambda, &u);
-        contact::penetration(&system, &u)
-    });
-    assert!(p[0] * p[1] < 0.0 || p[1].abs() > p[0].abs());
-    let moving = "?eps=2.99e6&k=1&numbers=f32";
     let long = "?c=1.23456789012345678901234567890123456&eps=2.3456789012345678901234567890123456789&k=200&numbers=exact";
     // Error of the multiplier in the cycle, now and in the next step; to three digits R is 4.81.
     let default = SpringMass { c: 100.0_f64, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
@@ -455,12 +381,12 @@ fn other_settings_have_verdicts() {
         lambda = augmented::update(&default, &eps, &lambda, &u);
         error
     });
+    assert_ne!(errors[6], errors[7]);
     let cycle = format!("2-cycle by {} now and by {} next", errors[6], errors[7]);
-    assert!(errors[6] != errors[7] && cycle.matches("·10⁻¹¹").count() == 2);
     let expected = [
         ("?eps=1e5&k=6", &*cycle),
         (overflow, "overflow too large for f32"),
-        (moving, "moving by rounding"),
+        ("?eps=2.99e6&k=1&numbers=f32", "moving by rounding"),
         (long, "converging binary digits"),
         ("?lambda=4.81&numbers=exact", "fixed point this is the solution"),
         ("?k=3000&numbers=exact", "converging at most 200 steps"),
@@ -523,25 +449,30 @@ const opened = search => {
 const numbersIn = text => (text.match(/-?[\d.]+(e[+-]?\d+)?/g) ?? []).map(Number);
 "#;
 
-/// Runs the whole script and checks the drawings.
+/// Runs the whole script and checks the drawings. For the example the steps are (1/4, 1), (1/8, 3/2), … on the line of
+/// equilibrium, and the corner of the plane is at p = N = 0.
 #[test]
 #[ignore = "requires node"]
 fn drawings_agree_with_the_table() {
     const DRAWN: &str = r#"
-for (const search of input.asked) {
+console.log(JSON.stringify(input.asked.map(search => {
   const root = opened(search), find = selector => root.querySelector(selector);
   root.on.click({ target: { dataset: { step: "1" } } });
-  const forces = find(".bench-forces"), drawings = [find(".bench-system"), forces, find(".bench-decay")];
-  const wrong = drawings.flatMap(svg => svg.all).filter(part => /NaN|Infinity|undefined/.test(JSON.stringify(part.attributes)));
-  // Each step is a point on the line of equilibrium.
-  const line = forces.all.find(part => part.attributes.class === "bench-spring");
-  const [x0, y0, x1, y1] = numbersIn(line.attributes.d), dots = forces.all.filter(part => part.name === "circle");
-  const off = dots.filter(({ attributes: { cx, cy } }) =>
-    Math.abs((cx - x0) * (y1 - y0) - (cy - y0) * (x1 - x0)) > 0.02 * Math.hypot(x1 - x0, y1 - y0));
+  const forces = find(".bench-forces"), decay = find(".bench-decay"), all = [find(".bench-system"), forces, decay];
+  const wrong = all.flatMap(svg => svg.all).filter(part => /NaN|Infinity|undefined/.test(JSON.stringify(part.attributes)));
   const rows = find(".bench-table tbody").children, shown = find(".bench-verdict").text;
-  console.log([shown.split(",")[0], dots.length, rows.length, rows.at(-1).children[0].textContent,
-    new URLSearchParams(location.search).get("k"), wrong.length, off.length].join("|"));
-}
+  const line = (svg, kind, dashes) => numbersIn(svg.all.find(part =>
+    part.attributes.class === kind && part.attributes["stroke-dasharray"] === dashes)?.attributes.d ?? "");
+  const discs = (svg, kind) => svg.all.filter(part => part.name === "circle" && part.attributes.class.startsWith(kind))
+    .map(({ attributes: { cx, cy } }) => [Number(cx), Number(cy)]);
+  // Each step is a point on the line of equilibrium.
+  const [x0, y0, x1, y1] = line(forces, "bench-spring"), steps = discs(forces, "");
+  const off = steps.filter(([x, y]) => Math.abs((x - x0) * (y1 - y0) - (y - y0) * (x1 - x0)) > 0.02 * Math.hypot(x1 - x0, y1 - y0));
+  const text = [shown.split(",")[0], steps.length, rows.length, rows.at(-1).children[0].textContent,
+    new URLSearchParams(location.search).get("k"), wrong.length, off.length].join("|");
+  const corner = line(forces, "bench-plane bench-corner"), law = line(decay, "bench-faint", "4 3");
+  return [text, steps, corner, discs(decay, "bench-dot"), discs(decay, "bench-ring"), law];
+})));
 "#;
     // Settings, and the result after one more step: the verdict, the numbers of points and rows, k in the last row and in
     // the address, the number of invalid attributes, and the number of points off the line, where forces do not balance.
@@ -556,73 +487,39 @@ for (const search of input.asked) {
     ];
     let asked: Vec<_> = expected.iter().map(|(asked, _)| asked).collect();
     let input = json!({ "script": script().unwrap(), "asked": asked });
-    let found = node(&format!("{DOCUMENT}{DRAWN}"), &input);
-    assert_eq!(found.lines().collect::<Vec<_>>(), expected.map(|(_, drawn)| drawn));
+    type Points = Vec<[f64; 2]>;
+    type Drawing = (String, Points, Vec<f64>, Points, Points, Vec<f64>);
+    let drawings: Vec<Drawing> = from_str(&node(&format!("{DOCUMENT}{DRAWN}"), &input)).unwrap();
+    let texts: Vec<_> = drawings.iter().map(|drawing| drawing.0.as_str()).collect();
+    assert_eq!(texts, expected.map(|(_, drawn)| drawn));
+
+    // Paths are written in hundredths of a pixel.
+    let assert_close = |a: f64, b: f64| assert!((a - b).abs() <= 0.011, "{a} and {b}");
+    let (_, steps, corner, dots, rings, law) = &drawings[2];
+    let (metre, newton) = ((steps[0][0] - steps[1][0]) / 0.125, (steps[0][1] - steps[1][1]) / 0.5);
+    assert!(metre > 100.0 && newton > 10.0, "to the right and upwards");
+    let at = |p: f64, n: f64| [steps[0][0] + (p - 0.25) * metre, steps[0][1] - (n - 1.0) * newton];
+    for (step, p) in steps.iter().zip([0.25, 0.125, 0.0625, 0.03125, 0.015625]) {
+        let [x, y] = at(p, 2.0 - 4.0 * p);
+        assert_close(step[0], x);
+        assert_close(step[1], y);
+    }
+    let [x, y] = at(0.0, 0.0);
+    for (found, expected) in corner[1..5].iter().zip([y, x, y, x]) {
+        assert_close(*found, expected);
+    }
+    assert!(corner[0] < x && corner[5] < y, "p ≤ 0 and N ≥ 0");
+    // Each step halves the penetration, computed and exact: on a logarithmic axis the points lie on the line of ρᵏ. Its ends
+    // are rounded, but it is much longer than the distance of the steps.
+    assert_eq!(dots, rings);
+    let slope = (law[3] - law[1]) / (law[2] - law[0]);
+    assert!(dots.len() == 5 && slope > 0.0);
+    dots.iter().for_each(|dot| assert_close(law[1] + slope * (dot[0] - law[0]), dot[1]));
 }
 
 /// Document for the functions that draw, on a page without a bench.
 const STUB: &str =
     "const document = { createElementNS: (space, name) => new Element(name), querySelectorAll: () => [] };";
-
-/// For the example the steps are (1/4, 1), (1/8, 3/2), … on the line of equilibrium, and the corner of the plane is at
-/// p = N = 0.
-#[test]
-#[ignore = "requires node"]
-fn drawings_are_to_scale() {
-    const DRAWN: &str = r#"
-const { values } = numbers(input), result = run(input, values);
-const drawn = draw => {
-  const svg = document.createElementNS("", "svg");
-  Object.assign(svg, { clientWidth: 400, clientHeight: 300 });
-  draw(svg, seen(result), result, forceBox(seen(result)));
-  const of = name => svg.children.filter(child => child.name === name);
-  return {
-    paths: of("path").map(({ attributes: { class: kind, d } }) => [kind, numbersIn(d)]),
-    dots: of("circle").map(({ attributes: { class: kind, cx, cy } }) => [kind, [Number(cx), Number(cy)]]),
-  };
-};
-console.log(JSON.stringify([drawn(drawForces), drawn(drawDecay)]));
-"#;
-    let question = json!({ "c": "4", "m": "1", "g": "10", "l": "1", "H": "3", "eps": "4", "lambda": "0", "k": 3,
-        "numbers": "f64", "plane": "both" });
-    let found = printed(&format!("{DOCUMENT}{STUB}{PAGE}{DRAWN}"), &question);
-    let drawn: Value = serde_json::from_str(&found).unwrap();
-    let of = |drawing: usize, what: &str, kind: &str| -> Vec<Vec<f64>> {
-        let all = drawn[drawing][what].as_array().unwrap().iter().filter(|one| one[0] == kind);
-        all.map(|one| one[1].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()).collect()
-    };
-    // Paths are written in hundredths of a pixel.
-    let assert_close = |a: f64, b: f64| assert!((a - b).abs() <= 0.011, "{a} and {b}");
-    let (steps, corner) = (of(0, "dots", "bench-dot"), of(0, "paths", "bench-plane bench-corner"));
-    let spring = &of(0, "paths", "bench-spring")[0];
-    let metre = (steps[0][0] - steps[1][0]) / 0.125;
-    let newton = (steps[0][1] - steps[1][1]) / 0.5;
-    assert!(steps.len() == 4 && metre > 100.0 && newton > 10.0, "to the right and upwards");
-    let at = |p: f64, n: f64| [steps[0][0] + (p - 0.25) * metre, steps[0][1] - (n - 1.0) * newton];
-    for (step, (p, n)) in steps.iter().zip([(0.25, 1.0), (0.125, 1.5), (0.0625, 1.75), (0.03125, 1.875)]) {
-        let [x, y] = at(p, n);
-        assert_close(step[0], x);
-        assert_close(step[1], y);
-        let share = (x - spring[0]) / (spring[2] - spring[0]);
-        assert_close(spring[1] + share * (spring[3] - spring[1]), y);
-    }
-    let ([x, y], corner) = (at(0.0, 0.0), &corner[0]);
-    for (a, b) in [(corner[1], y), (corner[2], x), (corner[3], y), (corner[4], x)] {
-        assert_close(a, b);
-    }
-    assert!(corner[0] < x && corner[5] < y, "p ≤ 0 and N ≥ 0");
-
-    // Each step halves the penetration, computed and exact: on a logarithmic axis the points lie on the line of ρᵏ.
-    let (dots, rings) = (of(1, "dots", "bench-dot"), of(1, "dots", "bench-ring"));
-    let law = of(1, "paths", "bench-faint").pop().unwrap();
-    let slope = (law[3] - law[1]) / (law[2] - law[0]);
-    assert!(dots.len() == 4 && slope > 0.0);
-    for (dot, ring) in dots.iter().zip(&rings) {
-        assert_eq!(dot, ring);
-        // The ends of the line are rounded, but it is much longer than the distance of the steps.
-        assert_close(law[1] + slope * (dot[0] - law[0]), dot[1]);
-    }
-}
 
 /// The axes of the force diagram stay, also after the plane was dragged; they change if the solution would leave them, or
 /// by their button. The line before the last change stays as a faint one. A finger on the plane does not scroll.
