@@ -170,138 +170,96 @@ impl Picture {
 /// Points on the line c p + N = R of the example.
 const EQUILIBRIUM: &[Point] = &[(0.0, 2.0), (0.25, 1.0), (0.5, 0.0)];
 
-/// Labels of marks of each figure, and points on its lines.
+/// Labels of the marks of each figure, which end its description.
 ///
 /// Expected values: the tables in contact.md (`states`), formulations.md with ε = 4 (`methods`), penalty.md, augmented.md
 /// and convergence.md (`rates`). The update with α = c + ε has N = (4 + 4)·0.25. In `bent`, c = 4, R = −4 and ε = 4, and
 /// the multipliers from λ = 10 are 3 and 0. The energies are −12 J plus −2p + 2p², −2p + 4p², 2p² and −p + 4p².
-type Drawn<'a> = (&'a str, &'a [&'a str], &'a [(&'a str, &'a [Point])]);
-const DRAWN: &[Drawn] = &[
-    ("plane", &["The answer: p = 0, N = 2"], &[("plane thick", &[(-0.2, 0.0), (0.0, 0.0), (0.0, 2.4)])]),
-    ("equilibrium", &["Held at the plane: p = 0, N = 2", "Without the plane: p = 0.5, N = 0"], &[]),
-    ("free", &["The free mass: p = 0.5, N = 0"], &[("thick", &[(-0.2, 0.0), (0.5, 0.0)])]),
+const MARKS: &[(&str, &str)] = &[
+    ("plane", "The answer: p = 0, N = 2"),
+    ("equilibrium", "Held at the plane: p = 0, N = 2; Without the plane: p = 0.5, N = 0"),
+    ("free", "The free mass: p = 0.5, N = 0"),
     (
         "states",
-        &["g = 10, contact: p = 0, N = 2", "g = 8, grazing: p = 0, N = 0", "g = 4, separated: p = −1, N = 0"],
-        &[("spring dashed", &[(-0.5, 2.0), (0.0, 0.0)]), ("spring dotted", &[(-1.5, 2.0), (-1.0, 0.0)])],
+        "g = 10, contact: p = 0, N = 2; g = 8, grazing: p = 0, N = 0; g = 4, separated: p = −1, N = 0",
     ),
     (
         "methods",
-        &[
-            "Lagrange multiplier: p = 0, N = 2",
-            "Penalty: p = 0.25, N = 1",
-            "Augmented, k = 3: p = 0.03125, N = 1.875",
-        ],
-        &[
-            ("plane thick", &[(0.0, -0.4), (0.0, 2.4)]),
-            ("penalty dashed", &[(0.0, 0.0), (0.25, 1.0), (0.5, 2.0)]),
-            ("iterate dotted", &[(0.0, 1.75), (0.03125, 1.875)]),
-        ],
+        "Lagrange multiplier: p = 0, N = 2; Penalty: p = 0.25, N = 1; Augmented, k = 3: p = 0.03125, N = 1.875",
     ),
-    (
-        "multiplier",
-        &["The multiplier method: p = 0, N = 2"],
-        &[("plane thick", &[(0.0, 0.0), (0.0, 2.4)]), ("plane thick dashed", &[(0.0, 0.0), (0.0, -0.4)])],
-    ),
+    ("multiplier", "The multiplier method: p = 0, N = 2"),
     (
         "penalty",
-        &["ε = 4: p = 0.25, N = 1", "ε = 16: p = 0.1, N = 1.6", "ε = 36: p = 0.05, N = 1.8"],
-        &[
-            ("penalty", &[(0.0, 0.0), (0.25, 1.0), (0.3, 1.2)]),
-            ("penalty", &[(0.0, 0.0), (0.1, 1.6), (0.12, 1.92)]),
-            ("penalty", &[(0.0, 0.0), (0.05, 1.8), (0.06, 2.16)]),
-            ("fine head", &[(0.25, 1.0)]),
-            ("fine head", &[(0.25, 2.0)]),
-        ],
+        "ε = 4: p = 0.25, N = 1; ε = 16: p = 0.1, N = 1.6; ε = 36: p = 0.05, N = 1.8; Exact: p = 0, N = 2",
     ),
     (
         "augmented",
-        &[
-            "k = 0: p = 0.25, N = 1",
-            "k = 2: p = 0.0625, N = 1.75",
-            "k = 3: p = 0.03125, N = 1.875",
-            "Exact: p = 0, N = 2",
-        ],
-        &[
-            ("iterate", &[(0.0, 0.0), (0.25, 1.0)]),
-            ("iterate fine dotted", &[(0.0, 1.5), (0.0625, 1.75), (0.15, 2.1)]),
-            ("iterate fine dashed", &[(0.25, 1.0), (0.0, 1.0)]),
-            ("iterate", &[(0.0, 1.75), (0.03125, 1.875)]),
-        ],
+        "k = 0: p = 0.25, N = 1; k = 1: p = 0.125, N = 1.5; k = 2: p = 0.0625, N = 1.75; k = 3: p = 0.03125, N = 1.875; Exact: p = 0, N = 2",
     ),
-    (
-        "relaxed",
-        &["α = 4: p = 0.25, N = 1", "α = 8: p = 0.25, N = 2"],
-        &[
-            ("iterate", &[(0.0, 0.0), (0.25, 1.0), (0.5, 2.0)]),
-            ("iterate dashed", &[(0.0, 0.0), (0.25, 2.0)]),
-        ],
-    ),
+    ("relaxed", "α = 8: p = 0.25, N = 2; α = 4: p = 0.25, N = 1; Exact: p = 0, N = 2"),
     (
         "bent",
-        &[
-            "k = 0: p = −1.75, N = 3",
-            "k = 1 and after: p = −1, N = 0",
-            "No positive part in equilibrium: p = −0.5, N = −2",
-        ],
-        &[
-            ("spring", &[(-2.0, 4.0), (-1.0, 0.0), (-0.5, -2.0)]),
-            ("iterate", &[(-2.0, 2.0), (-1.75, 3.0)]),
-            ("iterate", &[(-1.0, 0.0), (-0.75, 0.0), (0.0, 3.0)]),
-            ("iterate", &[(-1.0, 0.0), (0.0, 0.0), (0.5, 2.0)]),
-            ("penalty dashed", &[(-0.5, -2.0), (0.0, 0.0), (0.5, 2.0)]),
-        ],
+        "No positive part in equilibrium: p = −0.5, N = −2; k = 0: p = −1.75, N = 3; k = 1 and after: p = −1, N = 0",
     ),
-    (
-        "step",
-        &["ε = 2.2: p = 0, N = 2", "ε = 1: p = 0.25, N = 1"],
-        &[
-            ("penalty", &[(-0.2, 0.0), (0.0, 0.0), (0.0, 2.2), (0.6, 2.2)]),
-            ("penalty dashed", &[(-0.2, 0.0), (0.0, 0.0), (0.0, 1.0), (0.6, 1.0)]),
-        ],
-    ),
-    (
-        "energies",
-        &["Π: p = 0.5, −12.5 J", "Πp: p = 0.25, −12.25 J", "ℒ: p = 0, −12 J", "L: p = 0.125, −12.0625 J"],
-        &[
-            ("spring", &[(-0.1, -11.78), (0.0, -12.0), (0.5, -12.5)]),
-            ("penalty dashed", &[(-0.1, -11.76), (0.25, -12.25), (0.4, -12.16)]),
-            ("plane", &[(-0.1, -11.98), (0.0, -12.0), (0.4, -11.68)]),
-            ("iterate dotted", &[(-0.1, -11.86), (0.125, -12.0625), (0.4, -11.76)]),
-        ],
-    ),
+    ("step", "ε = 2.2: p = 0, N = 2; ε = 1: p = 0.25, N = 1"),
+    ("energies", "Π: p = 0.5, −12.5 J; Πp: p = 0.25, −12.25 J; ℒ: p = 0, −12 J; L: p = 0.125, −12.0625 J"),
     (
         "rates",
-        &["k = 0: p = 0.25", "k = 1: p = 0.125", "k = 3: p = 0.03125", "k = 6: p = 0.00390625"],
-        // With e⁻¹ = 0.36788, and e⁻³ and e⁻⁶ to five digits.
-        &[
-            ("", &[(0.0, 0.25), (2.0, 0.25 * 0.36788), (6.0, 0.25 * 0.049787)]),
-            ("dashed", &[(0.0, 0.25), (1.0, 0.25 * 0.36788), (6.0, 0.25 * 0.0024788)]),
-        ],
+        "k = 0: p = 0.25; k = 1: p = 0.125; k = 2: p = 0.0625; k = 3: p = 0.03125; k = 4: p = 0.015625; k = 5: p = 0.0078125; k = 6: p = 0.00390625",
     ),
+    ("1-1", "l = 1 m; u = 1 m; H = 3 m; −p = 1 m; c u = 4 N; m g = 4 N"),
+    ("1-2", "p = 0.25 m; c u = 9 N; ε p = 1 N; m g = 10 N"),
+];
+
+/// Lines of figures by their class, and points on them.
+const LINES: &[(&str, &str, &[Point])] = &[
+    ("plane", "plane thick", &[(-0.2, 0.0), (0.0, 0.0), (0.0, 2.4)]),
+    ("free", "thick", &[(-0.2, 0.0), (0.5, 0.0)]),
+    ("states", "spring dashed", &[(-0.5, 2.0), (0.0, 0.0)]),
+    ("states", "spring dotted", &[(-1.5, 2.0), (-1.0, 0.0)]),
+    ("methods", "plane thick", &[(0.0, -0.4), (0.0, 2.4)]),
+    ("methods", "penalty dashed", &[(0.0, 0.0), (0.25, 1.0), (0.5, 2.0)]),
+    ("methods", "iterate dotted", &[(0.0, 1.75), (0.03125, 1.875)]),
+    ("multiplier", "plane thick", &[(0.0, 0.0), (0.0, 2.4)]),
+    ("multiplier", "plane thick dashed", &[(0.0, 0.0), (0.0, -0.4)]),
+    ("penalty", "penalty", &[(0.0, 0.0), (0.25, 1.0), (0.3, 1.2)]),
+    ("penalty", "penalty", &[(0.0, 0.0), (0.1, 1.6), (0.12, 1.92)]),
+    ("penalty", "penalty", &[(0.0, 0.0), (0.05, 1.8), (0.06, 2.16)]),
+    ("penalty", "fine head", &[(0.25, 1.0)]),
+    ("penalty", "fine head", &[(0.25, 2.0)]),
+    ("augmented", "iterate", &[(0.0, 0.0), (0.25, 1.0)]),
+    ("augmented", "iterate", &[(0.0, 1.75), (0.03125, 1.875)]),
+    ("augmented", "iterate fine dotted", &[(0.0, 1.5), (0.0625, 1.75), (0.15, 2.1)]),
+    ("augmented", "iterate fine dashed", &[(0.25, 1.0), (0.0, 1.0)]),
+    ("relaxed", "iterate", &[(0.0, 0.0), (0.25, 1.0), (0.5, 2.0)]),
+    ("relaxed", "iterate dashed", &[(0.0, 0.0), (0.25, 2.0)]),
+    ("bent", "spring", &[(-2.0, 4.0), (-1.0, 0.0), (-0.5, -2.0)]),
+    ("bent", "iterate", &[(-2.0, 2.0), (-1.75, 3.0)]),
+    ("bent", "iterate", &[(-1.0, 0.0), (-0.75, 0.0), (0.0, 3.0)]),
+    ("bent", "iterate", &[(-1.0, 0.0), (0.0, 0.0), (0.5, 2.0)]),
+    ("bent", "penalty dashed", &[(-0.5, -2.0), (0.0, 0.0), (0.5, 2.0)]),
+    ("step", "penalty", &[(-0.2, 0.0), (0.0, 0.0), (0.0, 2.2), (0.6, 2.2)]),
+    ("step", "penalty dashed", &[(-0.2, 0.0), (0.0, 0.0), (0.0, 1.0), (0.6, 1.0)]),
+    ("energies", "spring", &[(-0.1, -11.78), (0.0, -12.0), (0.5, -12.5)]),
+    ("energies", "penalty dashed", &[(-0.1, -11.76), (0.25, -12.25), (0.4, -12.16)]),
+    ("energies", "plane", &[(-0.1, -11.98), (0.0, -12.0), (0.4, -11.68)]),
+    ("energies", "iterate dotted", &[(-0.1, -11.86), (0.125, -12.0625), (0.4, -11.76)]),
+    // With e⁻¹ = 0.36788, and e⁻³ and e⁻⁶ to five digits.
+    ("rates", "", &[(0.0, 0.25), (2.0, 0.25 * 0.36788), (6.0, 0.25 * 0.049787)]),
+    ("rates", "dashed", &[(0.0, 0.25), (1.0, 0.25 * 0.36788), (6.0, 0.25 * 0.0024788)]),
     // c/(c + ε) with c = 100, where rounding is negligible: in 113 bits m g − c u follows this line at least to 10³⁰, ε p
     // at most to 10¹⁸.
-    (
-        "rounding",
-        &[],
-        &[
-            ("spring", &[(1.0, 100.0 / 101.0), (100.0, 0.5), (1e4, 1.0 / 101.0), (1e30, 1e-28)]),
-            ("penalty", &[(1.0, 100.0 / 101.0), (100.0, 0.5), (1e4, 1.0 / 101.0), (1e38, 1.0)]),
-        ],
-    ),
+    ("rounding", "spring", &[(1.0, 100.0 / 101.0), (100.0, 0.5), (1e4, 1.0 / 101.0), (1e30, 1e-28)]),
+    ("rounding", "penalty", &[(1.0, 100.0 / 101.0), (100.0, 0.5), (1e4, 1.0 / 101.0), (1e38, 1.0)]),
 ];
 
 #[test]
 fn marks_and_lines_are_those_computed_by_hand() {
-    for (name, labels, lines) in DRAWN {
-        let picture = picture(name);
-        for label in *labels {
-            assert!(picture.marks.iter().any(|mark| mark.3 == *label), "{name}: no mark {label:?}");
-        }
-        for (class, points) in *lines {
-            picture.passes(class, points);
-        }
+    for (name, labels) in MARKS {
+        let description = figure(name).unwrap().description;
+        assert!(description.ends_with(&format!(" {labels}.")), "{name}: {description}");
     }
+    LINES.iter().for_each(|(name, class, points)| picture(name).passes(class, points));
 }
 
 #[test]
