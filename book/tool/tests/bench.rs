@@ -35,13 +35,6 @@ fn node(script: &str, input: &Value) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-fn assert_same_lines(expected: &str, found: &str) {
-    for (i, (expected, found)) in expected.lines().zip(found.lines()).enumerate() {
-        assert_eq!(found, expected, "line {i}: found, expected");
-    }
-    assert_eq!(found.lines().count(), expected.lines().count());
-}
-
 /// Returns the bits of a number; all NaNs are equal.
 fn bits(x: f64) -> String {
     if x.is_nan() { "NaN".into() } else { format!("{:016x}", x.to_bits()) }
@@ -257,7 +250,11 @@ console.log(text.join("\n"));
         assert!(runs.expected.contains(needed), "no case with {needed}");
     }
     assert!(runs.input.iter().filter(|run| run[0] == "exact").count() > 50);
-    assert_same_lines(&runs.expected, &printed(&format!("{FLOAT}{LINES}"), &runs.input.into()));
+    let found = printed(&format!("{FLOAT}{LINES}"), &runs.input.into());
+    for (i, (expected, found)) in runs.expected.lines().zip(found.lines()).enumerate() {
+        assert_eq!(found, expected, "line {i}: found, expected");
+    }
+    assert_eq!(found.lines().count(), runs.expected.lines().count());
 }
 
 /// Returns what the bench says about the settings of each query, the query of its address with sorted settings, and
