@@ -22,12 +22,14 @@ pub struct Figure {
     pub description: String,
     /// Caption in the book; may contain `$…$`.
     pub caption: &'static str,
-    height: f64,
-    body: String,
+    svg: Svg,
 }
 
+/// Function that draws a figure.
+type Draw = fn() -> Figure;
+
 /// All figures by name.
-const FIGURES: &[(&str, fn() -> Figure)] = &[
+const FIGURES: &[(&str, Draw)] = &[
     ("plane", plane::answer),
     ("equilibrium", plane::intercepts),
     ("free", plane::hanging),
@@ -60,20 +62,14 @@ pub fn figure(name: &str) -> Option<Figure> {
 
 impl Figure {
     /// Returns a figure whose description ends with the labels of its elements.
-    fn new(
-        title: &'static str,
-        caption: &'static str,
-        description: &str,
-        Svg { body, labels }: Svg,
-        height: f64,
-    ) -> Self {
-        let description = format!("{description} {}.", labels.join("; "));
-        Figure { name: "", title, description, caption, height, body }
+    fn new(title: &'static str, caption: &'static str, description: &str, svg: Svg) -> Self {
+        let description = format!("{description} {}.", svg.labels.join("; "));
+        Figure { name: "", title, description, caption, svg }
     }
 
     /// Returns the figure as an SVG element for a page, which provides the style.
     pub fn inline(&self) -> String {
-        let Figure { name, height, body, .. } = self;
+        let Figure { name, svg: Svg { height, body, .. }, .. } = self;
         let (title, description) = (escaped(self.title), escaped(&self.description));
         format!(
             "<svg viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" \
@@ -85,7 +81,7 @@ impl Figure {
 
     /// Returns the figure as an SVG file with embedded style, in light or dark colours as the reader prefers.
     pub fn standalone(&self) -> String {
-        let (svg, size) = (self.inline(), format!("width=\"{WIDTH}\" height=\"{}\"", self.height));
+        let (svg, size) = (self.inline(), format!("width=\"{WIDTH}\" height=\"{}\"", self.svg.height));
         let head = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"drawing\" {size}");
         svg.replacen("<svg", &head, 1).replacen("</desc>\n", &format!("</desc>\n{STYLE}"), 1) + "\n"
     }

@@ -51,13 +51,12 @@ pub struct Plot {
     lines: Svg,
     x: Axis,
     y: Axis,
-    height: f64,
 }
 
 impl Plot {
     /// Returns a plot with axes only.
     pub fn new(x: Axis, y: Axis, height: f64) -> Self {
-        let mut plot = Plot { svg: Svg::default(), lines: Svg::default(), x, y, height };
+        let mut plot = Plot { svg: Svg { height, ..Svg::default() }, lines: Svg::default(), x, y };
         let corners = [(plot.x.from, plot.y.to), (plot.x.from, plot.y.from), (plot.x.to, plot.y.from)];
         plot.svg.path("axis", &corners.map(|corner| plot.at(corner)));
         for (value, text) in plot.x.ticks.clone() {
@@ -77,8 +76,8 @@ impl Plot {
 
     /// Returns the position of a point in pixels.
     pub fn at(&self, (x, y): (f64, f64)) -> Point {
-        let (width, height) = (WIDTH - LEFT - RIGHT, self.height - TOP - BOTTOM);
-        (LEFT + width * self.x.fraction(x), self.height - BOTTOM - height * self.y.fraction(y))
+        let (width, height) = (WIDTH - LEFT - RIGHT, self.svg.height - TOP - BOTTOM);
+        (LEFT + width * self.x.fraction(x), self.svg.height - BOTTOM - height * self.y.fraction(y))
     }
 
     /// Draws a line through points.
@@ -114,11 +113,11 @@ impl Plot {
     pub fn figure(mut self, title: &'static str, caption: &'static str, description: &str) -> Figure {
         // A line along an edge is shown with its whole width.
         let (x, y, width, height) =
-            (LEFT - 1.0, TOP - 1.0, WIDTH - LEFT - RIGHT + 2.0, self.height - TOP - BOTTOM + 2.0);
+            (LEFT - 1.0, TOP - 1.0, WIDTH - LEFT - RIGHT + 2.0, self.svg.height - TOP - BOTTOM + 2.0);
         let area = format!("x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"");
         let view = format!("viewBox=\"{x} {y} {width} {height}\"");
         let lines = format!("<svg {area} {view}>\n{}</svg>\n", self.lines.body);
         self.svg.body.insert_str(0, &lines);
-        Figure::new(title, caption, description, self.svg, self.height)
+        Figure::new(title, caption, description, self.svg)
     }
 }

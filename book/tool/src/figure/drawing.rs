@@ -79,7 +79,7 @@ pub fn system() -> Figure {
     let system = SpringMass { c: 4.0, m: 1.0, g: 4.0, l: 1.0, h: 3.0 };
     let u = contact::deflection(&system);
     let depth = system.l + u;
-    let mut svg = Svg::default();
+    let mut svg = Svg { height: level(system.h) + 16.0, ..Svg::default() };
     fixed(&mut svg, "", 0.0, -1.0);
     fixed(&mut svg, "plane", system.h, 1.0);
     spring(&mut svg, "spring", 0.0, depth, "c");
@@ -102,7 +102,7 @@ pub fn system() -> Figure {
                        length l of the spring and the deflection u, and between the mass and the plane the \
                        remaining gap −p, which add up to the height H of the support above the plane. Two arrows \
                        at the mass: the spring pulls up with c u, the weight is m g.";
-    Figure::new("The system", caption, description, svg, level(system.h) + 16.0)
+    Figure::new("The system", caption, description, svg)
 }
 
 /// Draws Fig. 1.2: the plane as a second spring.
@@ -112,7 +112,7 @@ pub fn second_spring() -> Figure {
     let depth = system.l + u;
     // The length of the second spring is arbitrary.
     let ground = system.h + 1.4;
-    let mut svg = Svg::default();
+    let mut svg = Svg { height: level(ground) + 16.0, ..Svg::default() };
     fixed(&mut svg, "", 0.0, -1.0);
     fixed(&mut svg, "", ground, 1.0);
     spring(&mut svg, "spring", 0.0, depth, "c");
@@ -130,5 +130,5 @@ pub fn second_spring() -> Figure {
     let description = "The mass hangs from a spring of stiffness c and has sunk by p below the level of the plane. \
                        There it compresses a second spring, of stiffness ε, which stands on the ground. Arrows at the \
                        mass: the weight m g is carried by c u of the first spring and by ε p of the second.";
-    Figure::new("The penalty as a second spring", caption, description, svg, level(ground) + 16.0)
+    Figure::new("The penalty as a second spring", caption, description, svg)
 }

@@ -9,6 +9,8 @@ pub type Point = (f64, f64);
 /// SVG elements of a figure.
 #[derive(Default)]
 pub struct Svg {
+    /// Height in pixels.
+    pub height: f64,
     pub body: String,
     /// What the elements show, such as `p = 0, N = 2`.
     pub labels: Vec<String>,
