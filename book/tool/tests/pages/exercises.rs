@@ -15,8 +15,8 @@ struct Exercise {
 }
 
 static EXERCISES: LazyLock<Vec<Exercise>> = LazyLock::new(|| {
-    let pages: Vec<_> = PAGES.iter().filter(|name| page(name).contains("xercises\n")).collect();
-    assert_eq!(pages.len(), 11, "the pages of the sections and five more end with exercises: {pages:?}");
+    let pages: Vec<_> = PAGES.iter().filter(|name| page(name).contains("id=\"exercise-")).collect();
+    assert_eq!(pages.len(), 11, "pages with exercises: {pages:?}");
     pages.into_iter().flat_map(|name| exercises(name)).collect()
 });
 
