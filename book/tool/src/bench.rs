@@ -102,7 +102,7 @@ fn to_javascript(tree: &Tree) -> Result<String> {
 /// # Errors
 /// Returns the errors of [`formulas`].
 pub fn html() -> Result<String> {
-    Ok(format!("<div class=\"bench\">\n{FALLBACK}\n</div>\n\n<script>\n{}</script>\n", script()?))
+    element("bench", "", &format!("\n{FALLBACK}\n"))
 }
 
 /// Returns the HTML of a small figure that moves: `fields` are the symbols of its sliders, and it shows the state
@@ -118,10 +118,12 @@ pub fn live(fields: &str, k: Option<u32>) -> Result<String> {
         Some(k) => ("bench bench-small", k),
         None => ("bench bench-small bench-solved", 40),
     };
-    Ok(format!(
-        "<div class=\"{class}\" data-fields=\"{fields}\" data-k=\"{k}\"></div>\n\n<script>\n{}</script>\n",
-        script()?
-    ))
+    element(class, &format!(" data-fields=\"{fields}\" data-k=\"{k}\""), "")
+}
+
+/// Returns an element with its script.
+fn element(class: &str, data: &str, content: &str) -> Result<String> {
+    Ok(format!("<div class=\"{class}\"{data}>{content}</div>\n\n<script>\n{}</script>\n", script()?))
 }
 
 /// Returns the script of the bench and of the small figures.

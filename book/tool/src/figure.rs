@@ -9,8 +9,8 @@ mod plane;
 mod plots;
 mod svg;
 
-use regex::Regex;
-use svg::escaped;
+use axes::WIDTH;
+use svg::{Svg, escaped};
 
 /// Figure with its texts.
 pub struct Figure {
@@ -22,8 +22,7 @@ pub struct Figure {
     pub description: String,
     /// Caption in the book; may contain `$…$`.
     pub caption: &'static str,
-    size: (f64, f64),
-    body: String,
+    svg: Svg,
 }
 
 /// Function that draws a figure.
@@ -62,43 +61,35 @@ pub fn figure(name: &str) -> Option<Figure> {
 }
 
 impl Figure {
+    /// Returns a figure whose description ends with the labels of its elements.
+    fn new(title: &'static str, caption: &'static str, description: &str, svg: Svg) -> Self {
+        let description = format!("{description} {}.", svg.labels.join("; "));
+        Figure { name: "", title, description, caption, svg }
+    }
+
     /// Returns the figure as an SVG element for a page, which provides the style.
     pub fn inline(&self) -> String {
-        self.element("", "")
+        let Figure { name, svg: Svg { height, body, .. }, .. } = self;
+        let (title, description) = (escaped(self.title), escaped(&self.description));
+        format!(
+            "<svg viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" \
+             aria-labelledby=\"fig-{name}-title fig-{name}-desc\">\n\
+             <title id=\"fig-{name}-title\">{title}</title>\n\
+             <desc id=\"fig-{name}-desc\">{description}</desc>\n{body}</svg>"
+        )
     }
 
     /// Returns the figure as an SVG file with embedded style, in light or dark colours as the reader prefers.
     pub fn standalone(&self) -> String {
-        let (width, height) = self.size;
-        let attributes = format!(
-            " xmlns=\"http://www.w3.org/2000/svg\" class=\"drawing\" width=\"{width}\" height=\"{height}\""
-        );
-        self.element(&attributes, &format!("<style>\n{}</style>\n", style())) + "\n"
-    }
-
-    fn element(&self, attributes: &str, style: &str) -> String {
-        let (name, (width, height), body) = (self.name, self.size, &self.body);
-        let (title, description) = (escaped(self.title), escaped(&self.description));
-        format!(
-            "<svg{attributes} viewBox=\"0 0 {width} {height}\" role=\"img\" \
-             aria-labelledby=\"fig-{name}-title fig-{name}-desc\">\n\
-             <title id=\"fig-{name}-title\">{title}</title>\n\
-             <desc id=\"fig-{name}-desc\">{description}</desc>\n{style}{body}</svg>"
-        )
+        let (svg, size) = (self.inline(), format!("width=\"{WIDTH}\" height=\"{}\"", self.svg.height));
+        let head = format!("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"drawing\" {size}");
+        svg.replacen("<svg", &head, 1).replacen("</desc>\n", &format!("</desc>\n{STYLE}"), 1) + "\n"
     }
 }
 
-/// Returns the style of the book's figures, with separate rules for light and dark colours.
-fn style() -> String {
-    let css = include_str!("../../theme/figures.css");
-    let (colours, rules) = css.split_once("}\n").expect("the colours come first");
-    let pair = Regex::new(r"(--[\w-]+): light-dark\((#\w+), (#\w+)\)").expect("a pattern");
-    let set = |index: usize| -> String {
-        pair.captures_iter(colours).map(|pair| format!(" {}: {};", &pair[1], &pair[index])).collect()
-    };
-    let (light, dark) = (set(2), set(3));
-    format!(
-        ":root {{ color: #1f2328;{light} }}\n\
-         @media (prefers-color-scheme: dark) {{ :root {{ color: #d1d7e0;{dark} }} }}\n{rules}"
-    )
-}
+/// Style of the book's figures for a file of its own.
+const STYLE: &str = concat!(
+    "<style>\n:root { color-scheme: light dark; color: light-dark(#1f2328, #d1d7e0); }\n",
+    include_str!("../../theme/figures.css"),
+    "</style>\n"
+);

@@ -35,8 +35,9 @@ use places::Places;
 use proofs::heading;
 use pulldown_cmark::{Event, Parser, Tag};
 use regex::{Captures, Regex};
-use source::{Item, Sources};
+use source::Item;
 use spring_mass_contact::claims::{Entry, entries, entry};
+use std::path::PathBuf;
 
 /// Returns the numbered equations of the chapter in order, with their LaTeX.
 pub fn equations() -> impl Iterator<Item = (&'static Entry, String)> {
@@ -55,17 +56,15 @@ impl Preprocessor for Equations {
         let tags = tag("eq|ref|source|formula|figure|claims|bench|live")?;
         let expander = TagExpander {
             typesetter: Typesetter::new()?,
-            sources: Sources::in_folder(&context.root.join("../src/chapter")),
+            folder: context.root.join("../src/chapter"),
             places: Places::of(&book, &tags)?,
-            claims: Claims::run(),
+            claims: Claims::run()?,
             links_documentation: links_documentation(context)?,
         };
         let mut result = Ok(());
         book.for_each_chapter_mut(|chapter| {
             if result.is_ok() {
-                result = expander.process(chapter, &tags).with_context(|| {
-                    format!("in {}", chapter.path.as_deref().unwrap_or("".as_ref()).display())
-                });
+                result = expander.process(chapter, &tags).with_context(|| format!("in {}", chapter.name));
             }
         });
         result.map(|()| book)
@@ -75,30 +74,20 @@ impl Preprocessor for Equations {
 /// Expands the tags of a page.
 struct TagExpander {
     typesetter: Typesetter,
-    sources: Sources,
+    /// Folder with the sources of the chapter, one module per section.
+    folder: PathBuf,
     places: Places,
     claims: &'static Claims,
     links_documentation: bool,
 }
 
 /// Returns `true` if links to the output of `cargo doc` work: it exists beside the book, and the book is not served,
-/// since a server shows nothing outside of it. The setting `preprocessor.equations.links-documentation` overrides this.
+/// since a server shows nothing outside of it.
 fn links_documentation(context: &PreprocessorContext) -> Result<bool> {
     let config = &context.config;
-    if let Some(setting) = config.get("preprocessor.equations.links-documentation")? {
-        return Ok(setting);
-    }
     let served = config.get::<String>("output.html.live-reload-endpoint")?.is_some();
     let book = context.root.join(&config.build.build_dir);
     Ok(!served && book.parent().is_some_and(|target| target.join("doc").join(CRATE).exists()))
-}
-
-/// Location of a tag in the book.
-struct TagContext {
-    /// Relative path from the page to the root of the book.
-    up: String,
-    /// Level of the preceding heading; 0 before the first.
-    level: usize,
 }
 
 impl TagExpander {
@@ -112,11 +101,10 @@ impl TagExpander {
             })
             .collect();
         let depth = chapter.path.as_deref().map_or(0, |path| path.components().count().saturating_sub(1));
+        let up = "../".repeat(depth);
         chapter.content = replaced(&text, tags, |tag| {
             let before = headings.iter().rfind(|(start, _)| *start < tag.get_match().start());
-            let context =
-                TagContext { up: "../".repeat(depth), level: before.map_or(0, |(_, level)| *level) };
-            self.tag(tag, &context)
+            self.tag(tag, &up, before.map_or(0, |(_, level)| *level))
         })?;
         Ok(())
     }
@@ -128,13 +116,11 @@ impl TagExpander {
         if chapter.path.as_deref().is_some_and(|path| path.starts_with("proofs")) {
             for entry in entries() {
                 let heading = format!("\n## {}\n", heading(entry));
-                let place = self.places.entry(entry).map(|place| format!("[In the book](../{place}) · "));
-                let claims = format!("[claims](../claims.md#{})", claims::anchor(entry));
-                let links = format!(
-                    "\n{}{claims} · [what to trust](../proofs.md#trust)\n",
-                    place.unwrap_or_default()
-                );
-                text = text.replace(&heading, &(heading.clone() + &links));
+                let place =
+                    self.places.get(entry.equation).map(|place| format!("[In the book](../{place}) · "));
+                let (place, claims) = (place.unwrap_or_default(), claims::anchor(entry));
+                let links = format!("[claims](../claims.md#{claims}) · [what to trust](../proofs.md#trust)");
+                text = text.replace(&heading, &format!("{heading}\n{place}{links}\n"));
                 let statement = format!("\n\n{}.\n", entry.statement());
                 text = text.replace(&statement, &claims::with_indices(&statement));
             }
@@ -142,15 +128,14 @@ impl TagExpander {
         text
     }
 
-    fn tag(&self, tag: &Captures, context: &TagContext) -> Result<String> {
+    /// Returns the replacement of a tag. `up` is the relative path from the page to the root of the book, and `level` that
+    /// of the preceding heading, 0 before the first.
+    fn tag(&self, tag: &Captures, up: &str, level: usize) -> Result<String> {
         let name = tag.get(2).map_or("", |name| name.as_str());
         match &tag[1] {
-            "eq" => self.equation(entry(name).with_context(|| format!("no equation ({name})"))?, context),
-            "ref" => {
-                let place = self.places.equation(name).with_context(|| format!("no equation ({name})"))?;
-                Ok(format!("[({name})]({}{place})", context.up))
-            }
-            "source" => self.source(name, context),
+            "eq" => self.equation(entry(name).with_context(|| format!("no equation ({name})"))?, up, level),
+            "ref" => Ok(format!("[({name})]({}{})", up, self.places.get(name)?)),
+            "source" => self.source(name, up),
             "figure" => self.figure(name),
             "bench" => bench::html(),
             "live" => {
@@ -164,108 +149,82 @@ impl TagExpander {
     }
 
     /// Renders the box of an equation.
-    fn equation(&self, entry: &Entry, context: &TagContext) -> Result<String> {
+    fn equation(&self, entry: &Entry, up: &str, level: usize) -> Result<String> {
         let (number, label) = (entry.equation, entry.label());
         let latex = entry.latex().with_context(|| format!("{label} has no formula"))?;
-        let mut result = format!(
-            "\n\n<div class=\"equation\">\n\n{} Equation {number} · {} {{#{}}}\n\n\
-             <div class=\"formula\">{}</div>\n\n",
-            "#".repeat(context.level + 1),
-            entry.title,
-            places::anchor(number),
-            self.typesetter.display(&latex)?,
-        );
-        let mut folded = self.claims.status(entry, &context.up) + "\n\n";
+        let (mut shown, mut folded) = (String::new(), self.claims.status(entry, up) + "\n\n");
         // A function of several equations is printed with the first and linked from the others.
         for (i, function) in entry.functions.iter().enumerate() {
             let first = places::first_with(function).context("listed")?;
-            let item = self.sources.item(function)?;
+            let item = Item::read(&self.folder, function)?;
             if first != number {
-                let place = self.places.equation(first).context("displayed")?;
-                let printed = format!(", printed at [({first})]({}{place})", context.up);
-                folded += &(self.caption(function, &item, &printed, context)? + "\n");
+                let printed = format!(", printed at [({first})]({}{})", up, self.places.get(first)?);
+                folded += &(self.caption(function, &item, &printed, up)? + "\n");
             } else if let (0, Some(body)) = (i, item.body()) {
                 // The line that computes the equation is printed, the rest is folded.
-                result +=
-                    &format!("<div class=\"source\"{}>\n\n{}</div>\n\n", self.id(function), listing(&body));
-                folded += &(self.caption(function, &item, "", context)? + "\n" + &listing(&item.code));
+                shown = format!("<div class=\"source\">\n\n{}</div>\n\n", listing(&body));
+                folded += &(self.caption(function, &item, "", up)? + "\n" + &listing(&item.code));
             } else {
-                folded += &self.source(function, context)?;
+                folded += &self.source(function, up)?;
             }
         }
-        let summary = self.claims.summary(entry);
+        let (level, title, anchor) = ("#".repeat(level + 1), entry.title, places::anchor(number));
+        let (formula, count) = (self.typesetter.display(&latex)?, claims::claim_count(entry));
         Ok(format!(
-            "{result}<details class=\"more\"><summary>{summary}</summary>\n\n{folded}</details>\n\n</div>\n\n"
+            "\n\n<div class=\"equation\">\n\n{level} Equation {number} · {title} {{#{anchor}}}\n\n\
+             <div class=\"formula\">{formula}</div>\n\n{shown}\
+             <details class=\"more\"><summary>{count} proved · source</summary>\n\n{folded}</details>\n\n</div>\n\n"
         ))
-    }
-
-    /// Returns the attribute with the anchor of a function, if it has its own.
-    fn id(&self, function: &str) -> String {
-        if self.places.has_own_anchor(function) {
-            format!(" id=\"{}\"", places::anchor_of(function))
-        } else {
-            String::new()
-        }
     }
 
     fn figure(&self, name: &str) -> Result<String> {
         let figure = figure::figure(name).with_context(|| format!("no figure {name}"))?;
-        let caption = self.typesetter.page(figure.caption)?;
-        let svg = figure.inline();
+        let (svg, caption) = (figure.inline(), self.typesetter.page(figure.caption)?);
         Ok(format!(
             "\n\n<figure class=\"drawing\" id=\"fig-{name}\">\n{svg}\n<figcaption>{caption}</figcaption>\n</figure>\n\n"
         ))
     }
 
-    /// Renders the body of a function, followed by a folded block with the whole function.
-    fn source(&self, function: &str, context: &TagContext) -> Result<String> {
-        let item = self.sources.item(function)?;
-        let id = self.id(function);
-        let shown = match item.body() {
-            Some(body) => {
-                let whole = listing(&item.code);
-                listing(&body)
-                    + &format!("<details><summary>the whole function</summary>\n\n{whole}</details>\n\n")
-            }
-            None => listing(&item.code),
+    /// Renders the body of a function, followed by a folded block with the whole function. A function that no box shows
+    /// has an anchor.
+    fn source(&self, function: &str, up: &str) -> Result<String> {
+        let item = Item::read(&self.folder, function)?;
+        let id = match places::first_with(function) {
+            None => format!(" id=\"fn-{}\"", function.replace("::", "-")),
+            Some(_) => String::new(),
         };
-        let caption = self.caption(function, &item, "", context)?;
+        let whole = listing(&item.code);
+        let shown = item.body().map_or(whole.clone(), |body| {
+            let body = listing(&body);
+            format!("{body}<details><summary>the whole function</summary>\n\n{whole}</details>\n\n")
+        });
+        let caption = self.caption(function, &item, "", up)?;
         Ok(format!("\n\n<div class=\"source\"{id}>\n{caption}\n{shown}</div>\n\n"))
     }
 
     /// Returns the caption of a listing: the name of the function, with links to its documentation and source if these
     /// work, and `rest`.
-    fn caption(&self, function: &str, item: &Item, rest: &str, context: &TagContext) -> Result<String> {
-        let name = if self.links_documentation {
-            links(function, item, &context.up)?
-        } else {
-            format!("`{function}`")
-        };
-        Ok(format!("<div class=\"caption\">\n\n{name}{rest}\n\n</div>\n"))
+    fn caption(&self, function: &str, item: &Item, rest: &str, up: &str) -> Result<String> {
+        let mut links = String::new();
+        if self.links_documentation {
+            let (module, name) = function.split_once("::").context("a path")?;
+            let (docs, kind, (first, last)) = (format!("{}../doc", up), item.kind, item.lines);
+            links = format!(
+                " · [documentation]({docs}/{CRATE}/chapter/{module}/{kind}.{name}.html) · \
+                 [source]({docs}/src/{CRATE}/chapter/{module}.rs.html#{first}-{last})"
+            );
+        }
+        Ok(format!("<div class=\"caption\">\n\n`{function}`{links}{rest}\n\n</div>\n"))
     }
 }
+
+/// Name of the crate's folder in the output of `cargo doc`.
+const CRATE: &str = "spring_mass_contact";
 
 /// Returns a block of source code, which is not tested here.
 fn listing(code: &str) -> String {
     format!("```rust,ignore\n{code}\n```\n\n")
 }
-
-/// Returns the name of a function with links to its documentation and source.
-fn links(function: &str, item: &Item, up: &str) -> Result<String> {
-    let (module, name) = function.split_once("::").context("a path")?;
-    let (first, last) = (item.lines.start(), item.lines.end());
-    Ok(format!(
-        "`{function}` · [documentation]({up}{DOCS}/{CRATE}/chapter/{module}/{}.{name}.html) · \
-         [source]({up}{DOCS}/src/{CRATE}/chapter/{module}.rs.html#{first}-{last})",
-        item.kind
-    ))
-}
-
-/// Relative path from the root of the book to the output of `cargo doc`.
-const DOCS: &str = "../doc";
-
-/// Name of the crate's folder in [`DOCS`].
-const CRATE: &str = "spring_mass_contact";
 
 /// Replaces each tag by the result of `by`, or returns the first error.
 fn replaced(text: &str, tags: &Regex, by: impl Fn(&Captures) -> Result<String>) -> Result<String> {

@@ -15,8 +15,8 @@ const PUNCTUATION: [char; 7] = ['.', ',', ';', ':', ')', '?', '”'];
 /// Characters that must not end a line.
 const OPENING: [char; 2] = ['(', '“'];
 
-/// End mark of a proof.
-const END_MARK: &str = "<span class=\"qed\">□</span>";
+/// End mark of a proof, which stays with the last word.
+const END_MARK: &str = "&nbsp;<span class=\"qed\">□</span>";
 
 /// Relations after which a long formula may be broken.
 const RELATIONS: [&str; 12] = ["=", "&lt;", "&gt;", "≤", "≥", "≠", "≈", "∼", "≪", "≫", "→", "⇒"];
@@ -40,24 +40,18 @@ impl Typesetter {
 
     /// Typesets the `$…$` and `$$…$$` of a page; code is left unchanged.
     pub fn page(&self, text: &str) -> Result<String> {
+        let text = &text.replace(r" $\square$", END_MARK);
         let mut result = String::with_capacity(text.len());
         let (mut end, mut in_head) = (0, false);
         for (event, range) in
             Parser::new_ext(text, Options::ENABLE_MATH | Options::ENABLE_TABLES).into_offset_iter()
         {
             let html = match event {
-                Event::Start(Tag::TableHead) => {
-                    in_head = true;
+                Event::Start(Tag::TableHead) | Event::End(TagEnd::TableHead) => {
+                    in_head = !in_head;
                     continue;
                 }
-                Event::End(TagEnd::TableHead) => {
-                    in_head = false;
-                    continue;
-                }
-                Event::InlineMath(latex) if in_head => {
-                    self.labelled(&self.html(&latex, MathDisplay::Inline)?)
-                }
-                Event::InlineMath(latex) if *latex == *r"\square" => END_MARK.to_string(),
+                Event::InlineMath(latex) if in_head => self.labelled(&latex)?,
                 Event::InlineMath(latex) => self.inline(&latex)?,
                 Event::DisplayMath(latex) => {
                     format!("<span class=\"formula\">{}</span>", self.display(&latex)?)
@@ -68,11 +62,7 @@ impl Typesetter {
             end = range.end;
             let before = result.len() - result.trim_end_matches(OPENING).len();
             let after = text[end..].len() - text[end..].trim_start_matches(PUNCTUATION).len();
-            if html == END_MARK {
-                // It stays with the last word.
-                result.truncate(result.trim_end_matches(' ').len());
-                result += &format!("&nbsp;{html}");
-            } else if before + after == 0 {
+            if before + after == 0 {
                 result += &html;
             } else {
                 // Punctuation stays with the formula.
@@ -85,10 +75,11 @@ impl Typesetter {
         Ok(result + &text[end..])
     }
 
-    /// Adds the letters of a formula as its label: accessibility tools treat a header of MathML alone as empty.
-    fn labelled(&self, html: &str) -> String {
-        let letters = self.tag.replace_all(html, "");
-        html.replacen("<math", &format!("<math aria-label=\"{letters}\""), 1)
+    /// Typesets a formula with its letters as a label: accessibility tools treat a header of MathML alone as empty.
+    fn labelled(&self, latex: &str) -> Result<String> {
+        let html = self.html(latex, MathDisplay::Inline)?;
+        let label = format!("<math aria-label=\"{}\"", self.tag.replace_all(&html, ""));
+        Ok(html.replacen("<math", &label, 1))
     }
 
     /// Typesets an inline formula.
@@ -144,14 +135,9 @@ impl Typesetter {
 
 /// Replaces the characters that Markdown or mdBook would interpret by entities.
 fn hide_from_markdown(html: &str) -> String {
-    html.chars()
-        .map(|c| match c {
-            '_' | '*' | '|' | '\\' | '`' | '~' | '[' | ']' | '{' | '}' | '$' | '\n' => {
-                format!("&#{};", u32::from(c))
-            }
-            _ => c.to_string(),
-        })
-        .collect()
+    let hidden =
+        |c: char| if "_*|\\`~[]{}$\n".contains(c) { format!("&#{};", u32::from(c)) } else { c.to_string() };
+    html.chars().map(hidden).collect()
 }
 
 #[cfg(test)]
@@ -163,14 +149,9 @@ mod tests {
     }
 
     #[test]
-    fn code_and_single_dollars_are_not_formulas() -> Result<()> {
+    fn formula_is_protected_from_markdown_and_code_is_not_a_formula() -> Result<()> {
         let text = "`$x$` costs 5 $\n\n```text\n$y$\n```\n";
         assert_eq!(page(text)?, text);
-        Ok(())
-    }
-
-    #[test]
-    fn formula_is_protected_from_markdown() -> Result<()> {
         let html = page(r"a $x_1 * y_2 \vert z$ b")?;
         assert!(html.starts_with("a <math>") && html.ends_with("</math> b"), "{html}");
         assert!(!html.contains(['_', '*', '|', '\\', '\n']), "{html}");
@@ -217,26 +198,6 @@ mod tests {
             page(&format!("$x = {tag}$ and $${tag}$$"))?,
             page(&format!("$x = {latex}$ and $${latex}$$"))?
         );
-        assert!(
-            page("${{#formula nothing::gap}}$").unwrap_err().to_string().contains("no formula nothing::gap")
-        );
-        Ok(())
-    }
-
-    #[test]
-    fn invalid_formula_is_an_error() {
-        let error = page(r"$\frac{1}$").unwrap_err();
-        assert!(error.to_string().contains(r"\frac{1}"), "{error:?}");
-        assert!(page(r"$\unknown$").is_err());
-    }
-
-    #[test]
-    fn equal_formulas_give_equal_files() -> Result<()> {
-        let formula = r"$$\sqrt{\frac{a}{b}} \overline{x} \begin{cases} a & b \\ c & d \end{cases}$$";
-        let first = page(formula)?;
-        for _ in 0..20 {
-            assert_eq!(page(formula)?, first);
-        }
         Ok(())
     }
 }

@@ -2,7 +2,7 @@
 
 use spring_mass_contact::{
     claims::{Entry, entries, registry},
-    formula::Hypothesis,
+    formula::Statement,
     proof::{
         prove,
         render::{self, ProofPrinter},
@@ -24,18 +24,9 @@ pub const SECTIONS: [(&str, &str); 7] = [
 /// Maximum number of lines of a proof that is not folded.
 const MAX_OPEN_LINES: usize = 20;
 
-/// Page in Markdown.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Page {
-    /// File name.
-    pub file: String,
-    /// Markdown text.
-    pub text: String,
-}
-
-/// Returns a page for each section, with its entries, their claims and the proofs.
-pub fn pages() -> Vec<Page> {
-    SECTIONS.iter().map(|(section, title)| page(section, title)).collect()
+/// Returns the file name and the Markdown text of a page for each section, with its entries, their claims and the proofs.
+pub fn pages() -> impl Iterator<Item = (String, String)> {
+    SECTIONS.iter().map(|(section, title)| (format!("{section}.md"), page(section, title)))
 }
 
 /// Returns the heading of an entry.
@@ -48,7 +39,13 @@ pub fn heading_of(entry: &Entry, claim: &str) -> String {
     format!("{claim}, {}", entry.label())
 }
 
-fn page(section: &str, title: &str) -> Page {
+/// Returns the hypotheses of a claim as they are stated, without invariants, which are part of the proof.
+pub fn format_hypotheses(claim: &Statement) -> Vec<String> {
+    let stated = claim.stated_hypotheses().iter().filter(|h| claim.hypotheses().contains(h));
+    registry().format_hypotheses(&stated.cloned().collect::<Vec<_>>())
+}
+
+fn page(section: &str, title: &str) -> String {
     let mut text = format!(
         "# Proofs: {title}\n\n\
          This page is printed by the prover, and a test compares the two.\n\
@@ -56,32 +53,29 @@ fn page(section: &str, title: &str) -> Page {
     );
     let of_section = |entry: &&Entry| entry.section == section && !entry.claims.is_empty();
     entries().iter().filter(of_section).for_each(|entry| text += &render_entry(entry));
-    Page { file: format!("{section}.md"), text }
+    text
 }
 
 /// Renders an entry with its claims and proofs.
 fn render_entry(entry: &Entry) -> String {
     let mut text = format!("\n## {}\n\n{}.\n", heading(entry), entry.statement());
-    let functions: Vec<_> = entry.functions.iter().map(|function| format!("`{function}`")).collect();
-    if !functions.is_empty() {
+    if !entry.functions.is_empty() {
         let modules = entry.functions.iter().filter_map(|function| function.split_once("::"));
         let mut files: Vec<_> = modules.map(|(module, _)| format!("`src/chapter/{module}.rs`")).collect();
         files.dedup();
-        let _ = write!(text, "\nComputed by {} in {}.\n", functions.join(", "), files.join(" and "));
+        let (functions, files) = (entry.functions.join("`, `"), files.join(" and "));
+        let _ = write!(text, "\nComputed by `{functions}` in {files}.\n");
     }
     for claim in &entry.claims {
         let printer = ProofPrinter::new(registry());
-        let is_hypothesis = |h: &&Hypothesis| claim.hypotheses().contains(h);
-        let hypotheses: Vec<_> = claim.stated_hypotheses().iter().filter(is_hypothesis).cloned().collect();
-        let lists =
-            [("if", registry().format_hypotheses(&hypotheses)), ("always", printer.invariants(claim))];
-        let mut conditions = lists
-            .into_iter()
-            .filter(|(_, list)| !list.is_empty())
-            .map(|(word, list)| format!("\n\n{word} `{}`", list.join("`, `")))
-            .collect::<String>();
-        if !printer.invariants(claim).is_empty() {
-            conditions += ", which is part of the proof";
+        let mut conditions = String::new();
+        for (word, list, note) in [
+            ("if", format_hypotheses(claim), ""),
+            ("always", printer.invariants(claim), ", which is part of the proof"),
+        ] {
+            if !list.is_empty() {
+                let _ = write!(conditions, "\n\n{word} `{}`{note}", list.join("`, `"));
+            }
         }
         let heading = heading_of(entry, claim.name());
         let _ = write!(text, "\n### {heading}\n\n`{}`{conditions}\n\n", printer.claim(claim));

@@ -3,16 +3,16 @@
 //!
 //! They require node, which `NODE=path` selects.
 
+use crate::files::text;
+use book_tool::PAGES;
 use book_tool::bench::{MODEL, PAGE, formulas, functions, script};
 use regex::Regex;
-use serde_json::{Value, json};
+use serde_json::{Value, from_str, json};
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, system};
-use spring_mass_contact::number::{Exact, Field, PositivePart, ToExact};
+use spring_mass_contact::number::{Exact, PositivePart, ToExact};
 use std::{
-    collections::BTreeSet,
     env,
     fmt::Write as _,
-    fs,
     io::Write as _,
     process::{Command, Stdio},
 };
@@ -35,26 +35,23 @@ fn node(script: &str, input: &Value) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-fn assert_same_lines(expected: &str, found: &str) {
-    for (i, (expected, found)) in expected.lines().zip(found.lines()).enumerate() {
-        for (expected, found) in expected.split(' ').zip(found.split(' ')) {
-            assert_eq!(found, expected, "line {i}: found, expected");
-        }
-    }
-    assert_eq!(found.lines().count(), expected.lines().count());
-}
-
 /// Returns the bits of a number; all NaNs are equal.
 fn bits(x: f64) -> String {
     if x.is_nan() { "NaN".into() } else { format!("{:016x}", x.to_bits()) }
 }
 
 /// Parameters of a run.
-struct Case {
-    system: SpringMass<f64>,
-    eps: f64,
-    lambda: f64,
+struct Case<T> {
+    system: SpringMass<T>,
+    eps: T,
+    lambda: T,
     steps: usize,
+}
+
+impl<T> Case<T> {
+    fn map<U>(&self, f: impl Fn(&T) -> U) -> Case<U> {
+        Case { system: self.system.map(&f), eps: f(&self.eps), lambda: f(&self.lambda), steps: self.steps }
+    }
 }
 
 /// Generator of pseudorandom numbers.
@@ -78,7 +75,7 @@ impl Random {
     }
 }
 
-fn cases() -> Vec<Case> {
+fn cases() -> Vec<Case<f64>> {
     let default = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
     let systems = [
         default,
@@ -114,153 +111,76 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Writes one line per step, with the value of every function.
-fn lines<T: PositivePart>(
-    text: &mut String,
-    (system, eps, lambda, n): (&SpringMass<T>, &T, &T, &T),
-    steps: usize,
-    show: impl Fn(&T) -> String,
-) {
-    for one in [false, true] {
-        let mut lambda = lambda.clone();
-        for _ in 0..steps {
+/// Runs for the bench, and the lines that it has to print: for each plane the values of every function at each step, and
+/// the verdict after them.
+#[derive(Default)]
+struct Runs {
+    input: Vec<Value>,
+    expected: String,
+}
+
+impl Runs {
+    /// Adds a run; `n` is two to the power of the number of digits.
+    fn add<T: PositivePart + ToExact>(
+        &mut self,
+        numbers: &str,
+        case: &Case<T>,
+        n: &T,
+        show: impl Fn(&T) -> String,
+    ) {
+        let Case { system, eps, lambda: start, steps } = case;
+        let SpringMass { c, m, g, l, h } = system;
+        let given = [c, m, g, l, h, eps, start, n];
+        // Signed zeros are different floats and equal numbers.
+        let is_valid = |x: &T| x.to_exact().is_ok() && show(x) != bits(-0.0);
+        let judged =
+            numbers != "exact" && given.into_iter().all(is_valid) && *c != T::zero() && *eps != T::zero();
+        let head = [json!(numbers), json!(steps), json!(judged)];
+        self.input.push(head.into_iter().chain(given.map(|x| json!(show(x)))).collect());
+        for one in [false, true] {
             let (deflection, update): (fn(&_, &_, &_) -> _, fn(&_, &_, &_, &_) -> _) = if one {
                 (augmented::unilateral_deflection, augmented::unilateral_update)
             } else {
                 (augmented::deflection, augmented::update)
             };
-            let u = deflection(system, eps, &lambda);
-            for (name, value) in functions(system, eps, &lambda, &u, n) {
-                write!(text, "{name}={} ", show(&value)).unwrap();
+            let mut lambda = start.clone();
+            for _ in 0..*steps {
+                let u = deflection(system, eps, &lambda);
+                for (name, value) in functions(system, eps, &lambda, &u, n) {
+                    write!(self.expected, "{name}={} ", show(&value)).unwrap();
+                }
+                self.expected.push('\n');
+                lambda = update(system, eps, &lambda, &u);
             }
-            text.push('\n');
-            lambda = update(system, eps, &lambda, &u);
+            let u = deflection(system, eps, &lambda);
+            let next = update(system, eps, &lambda, &u);
+            let later = update(system, eps, &next, &deflection(system, eps, &next));
+            let verdict = || verdict(system, [&lambda, &next, &later, &u], one, &n.to_exact().unwrap());
+            writeln!(self.expected, "{}", if judged { verdict() } else { String::new() }).unwrap();
         }
     }
 }
 
-/// Script that prints these lines by the bench; `read` parses the numbers of the input and `show` formats numbers.
-const LINES: &str = r#"
-const text = [];
-for (const [numbers, steps, ...given] of input) {
-  const { f } = systems[numbers], [read, show] = numbers === "exact" ? [parse, ratio] : [float, hex];
-  const [c, m, g, l, H, eps, start, n] = given.map(read);
-  for (const plane of ["both", "one"]) {
-    const step = recursion({ numbers, plane }, { c, m, g, l, H, eps });
-    for (let k = 0, lambda = start; k < steps; k += 1) {
-      const { u, next } = step(lambda);
-      const all = { c, m, g, l, H, eps, lambda, u, n };
-      text.push(Object.entries(f).map(([name, f]) => `${name}=${show(f(all))} `).join(""));
-      lambda = next;
-    }
-  }
-}
-console.log(text.join("\n"));
-"#;
-
-fn bench_input<T>(
-    name: &str,
-    steps: usize,
-    all: (&SpringMass<T>, &T, &T, &T),
-    show: impl Fn(&T) -> String,
-) -> Value {
-    let (SpringMass { c, m, g, l, h }, eps, lambda, n) = all;
-    let texts = [c, m, g, l, h, eps, lambda, n].map(show);
-    let head = [json!(name), json!(steps)];
-    Value::Array(head.into_iter().chain(texts.map(Value::from)).collect())
-}
-
-#[test]
-#[ignore = "requires node"]
-fn floats_agree_bit_for_bit() {
-    let (mut text, mut input) = (String::new(), Vec::new());
-    for Case { system, eps, lambda, steps } in cases() {
-        let (n, show) = (2.0_f64.powi(53), |x: &f64| bits(*x));
-        input.push(bench_input("f64", steps, (&system, &eps, &lambda, &n), show));
-        lines(&mut text, (&system, &eps, &lambda, &n), steps, show);
-
-        let (n, show) = (2.0_f32.powi(24), |x: &f32| bits(f64::from(*x)));
-        let (system, eps, lambda) = (system.map(|&x| x as f32), eps as f32, lambda as f32);
-        input.push(bench_input("f32", steps, (&system, &eps, &lambda, &n), show));
-        lines(&mut text, (&system, &eps, &lambda, &n), steps, show);
-    }
-    assert!(text.contains("NaN") && text.contains("7ff0000000000000") && text.contains("8000000000000000"));
-    let found = printed(&format!("{FLOAT}{LINES}"), &input.into());
-    assert_same_lines(&text, &found);
-}
-
-#[test]
-#[ignore = "requires node"]
-fn fractions_agree() {
-    let (mut text, mut input) = (String::new(), Vec::new());
-    let mut draw = Random(2);
-    for i in 0..30 {
-        let mut decimal = |signed: bool| {
-            let digits = draw.next() as i64 % 100_000;
-            let sign = if signed && draw.next().is_multiple_of(2) { -1 } else { 1 };
-            Exact::int((sign * if signed { digits } else { digits + 1 }) as i32)
-                / Exact::int(10_i32.pow(i % 5))
-        };
-        let system = SpringMass {
-            c: decimal(false),
-            m: decimal(false),
-            g: decimal(true),
-            l: decimal(true),
-            h: decimal(true),
-        };
-        let (eps, lambda, n) = (decimal(false), decimal(true), Exact::power_of_two(24));
-        let steps = if i == 0 { 150 } else { 10 };
-        input.push(bench_input("exact", steps, (&system, &eps, &lambda, &n), Exact::to_string));
-        lines(&mut text, (&system, &eps, &lambda, &n), steps, Exact::to_string);
-    }
-    // The bench refuses texts of this length, but its own numbers may be as long.
-    let found = printed(&format!("{FLOAT}{LINES}"), &input.into());
-    assert_same_lines(&text, &found);
-}
-
-/// Conversion of floats by their bits, and of fractions in the crate's format.
-const FLOAT: &str = r#"
-const ratio = ({ n, d }) => (d === 1n ? `${n}` : `${n}/${d}`);
-const number = new Float64Array(1), word = new BigUint64Array(number.buffer);
-const float = text => { word[0] = BigInt("0x" + text); return number[0]; };
-const hex = x => { number[0] = x; return Number.isNaN(x) ? "NaN" : word[0].toString(16).padStart(16, "0"); };
-"#;
-
-/// Returns the expected verdict on step `k` by its definition, with the exact penetration of the computed deflection and
-/// the error of the force. The verdict is empty if it is not defined here.
-fn kind<T: PositivePart + ToExact>(
+/// Returns the verdict by its definition, with the exact penetration of the computed deflection and the error of the
+/// force, from three successive multipliers and the deflection at the first. The verdict is empty if it is not defined
+/// here.
+fn verdict<T: PositivePart + ToExact>(
     system: &SpringMass<T>,
-    eps: &T,
-    start: &T,
+    values: [&T; 4],
     one: bool,
-    k: usize,
-    precision: &Exact,
+    n: &Exact,
 ) -> String {
-    let step = |lambda: &T| {
-        let u = if one {
-            augmented::unilateral_deflection(system, eps, lambda)
-        } else {
-            augmented::deflection(system, eps, lambda)
-        };
-        let update = if one { augmented::unilateral_update } else { augmented::update };
-        (update(system, eps, lambda, &u), u)
-    };
-    let lambda = (0..k).fold(start.clone(), |lambda, _| step(&lambda).0);
-    let (next, u) = step(&lambda);
-    let exact = |x: &T| x.to_exact().ok();
-    let (Some(before), Some(after), Some(later), Some(exact_u)) =
-        (exact(&lambda), exact(&next), exact(&step(&next).0), exact(&u))
-    else {
+    let [Ok(before), Ok(after), Ok(later), Ok(u)] = values.map(ToExact::to_exact) else {
         return String::new();
     };
-    let exact_system = system.try_map(|x| x.to_exact()).unwrap();
+    let exact_system = system.try_map(ToExact::to_exact).unwrap();
     let reaction = system::reaction(&exact_system);
     let force = if one { contact::contact_force(&exact_system) } else { reaction.clone() };
-    let (zero, p) = (Exact::from(0), contact::penetration(&exact_system, &exact_u));
+    let (zero, p) = (Exact::from(0), contact::penetration(&exact_system, &u));
     let error = (after.clone() - &force).abs();
     // Fewer than half of the digits of the force are right.
-    let lost = error.clone() * &error * precision > force.clone() * &force;
-    let kind = if contact::penetration(system, &u) == T::zero() && lost {
+    let lost = error.clone() * &error * n > force.clone() * &force;
+    let kind = if contact::penetration(system, values[3]) == T::zero() && lost {
         "false zero"
     } else if one && reaction < zero && after == zero {
         "separated"
@@ -274,116 +194,113 @@ fn kind<T: PositivePart + ToExact>(
     format!("{kind} {p} {error}")
 }
 
+/// Conversion of floats by their bits, and of fractions in the crate's format.
+const FLOAT: &str = r#"
+const ratio = ({ n, d }) => (d === 1n ? `${n}` : `${n}/${d}`);
+const number = new Float64Array(1), word = new BigUint64Array(number.buffer);
+const float = text => { word[0] = BigInt("0x" + text); return number[0]; };
+const hex = x => { number[0] = x; return Number.isNaN(x) ? "NaN" : word[0].toString(16).padStart(16, "0"); };
+"#;
+
 #[test]
 #[ignore = "requires node"]
-fn verdicts_agree_with_their_definitions() {
-    const KINDS: &str = r#"
-const known = ["false zero", "separated", "fixed point", "2-cycle"];
-for (const [numbers, k, ...given] of input) {
-  const [c, m, g, l, H, eps, lambda] = given.map(float);
+fn runs_agree_bit_for_bit() {
+    const LINES: &str = r#"
+const text = [], known = ["false zero", "separated", "fixed point", "2-cycle"];
+for (const [numbers, steps, judged, ...given] of input) {
+  const { f } = systems[numbers], [read, show] = numbers === "exact" ? [parse, ratio] : [float, hex];
+  const [c, m, g, l, H, eps, start, n] = given.map(read);
   for (const plane of ["both", "one"]) {
-    const { kind, p, error } = verdict(run({ numbers, plane, k }, { c, m, g, l, H, eps, lambda }));
-    console.log(p ? `${known.includes(kind) ? kind : ""} ${ratio(p)} ${ratio(error)}` : "");
+    const step = recursion({ numbers, plane }, { c, m, g, l, H, eps });
+    for (let k = 0, lambda = start; k < steps; k += 1) {
+      const { u, next } = step(lambda);
+      const all = { c, m, g, l, H, eps, lambda, u, n };
+      text.push(Object.entries(f).map(([name, f]) => `${name}=${show(f(all))} `).join(""));
+      lambda = next;
+    }
+    const { kind, p, error } = judged ? verdict(run({ numbers, plane, k: steps }, { c, m, g, l, H, eps, lambda: start })) : {};
+    text.push(p ? `${known.includes(kind) ? kind : ""} ${ratio(p)} ${ratio(error)}` : "");
   }
 }
+console.log(text.join("\n"));
 "#;
-    let (mut text, mut input) = (String::new(), Vec::new());
-    let [f32_digits, f64_digits] = [24, 53].map(Exact::power_of_two);
-    // Signed zeros are different floats and equal numbers.
-    let valid = |x: f64| x.is_finite() && (x != 0.0 || x.is_sign_positive());
-    for Case { system, eps, lambda, steps } in cases() {
-        let all = [system.c, system.m, system.g, system.l, system.h, eps, lambda];
-        if all.into_iter().all(valid) {
-            let show = |x: &f64| bits(*x);
-            input.push(bench_input("f64", steps, (&system, &eps, &lambda, &0.0), show));
-            for one in [false, true] {
-                writeln!(text, "{}", kind(&system, &eps, &lambda, one, steps, &f64_digits)).unwrap();
-            }
-        }
-        if all.into_iter().all(|x| valid((x as f32).into())) && system.c as f32 > 0.0 && eps as f32 > 0.0 {
-            let (system, eps, lambda) = (system.map(|&x| x as f32), eps as f32, lambda as f32);
-            input.push(bench_input("f32", steps, (&system, &eps, &lambda, &0.0), |x| bits(f64::from(*x))));
-            for one in [false, true] {
-                writeln!(text, "{}", kind(&system, &eps, &lambda, one, steps, &f32_digits)).unwrap();
-            }
+    let mut runs = Runs::default();
+    for case in cases() {
+        runs.add("f64", &case, &2.0_f64.powi(53), |x| bits(*x));
+        let single = case.map(|x| *x as f32);
+        runs.add("f32", &single, &2.0_f32.powi(24), |x| bits(f64::from(*x)));
+        // The bench reads numbers of at most 40 characters; its own may be longer.
+        let SpringMass { c, m, g, l, h } = &single.system;
+        let all = [c, m, g, l, h, &single.eps, &single.lambda].map(|x| x.to_exact().ok());
+        if all.iter().all(|x| x.as_ref().is_some_and(|x| x.to_string().len() <= 40)) && case.steps < 60 {
+            let exact = single.map(|x| x.to_exact().unwrap());
+            runs.add("exact", &exact, &Exact::power_of_two(24), Exact::to_string);
         }
     }
-    for kind in ["false zero", "separated", "fixed point", "2-cycle", ""] {
-        assert!(
-            text.lines().any(|line| line.starts_with(&format!("{kind} "))),
-            "no case has the verdict {kind:?}"
-        );
+    for needed in [
+        "=NaN ",
+        "=7ff0000000000000 ",
+        "=8000000000000000 ",
+        "/",
+        "false zero ",
+        "separated ",
+        "fixed point ",
+        "2-cycle ",
+    ] {
+        assert!(runs.expected.contains(needed), "no case with {needed}");
     }
-    let found = printed(&format!("{FLOAT}{KINDS}"), &input.into());
-    assert_same_lines(&text, &found);
+    assert!(runs.input.iter().filter(|run| run[0] == "exact").count() > 50);
+    let found = printed(&format!("{FLOAT}{LINES}"), &runs.input.into());
+    for (i, (expected, found)) in runs.expected.lines().zip(found.lines()).enumerate() {
+        assert_eq!(found, expected, "line {i}: found, expected");
+    }
+    assert_eq!(found.lines().count(), runs.expected.lines().count());
+}
+
+/// Returns what the bench says about the settings of each query, the query of its address with sorted settings, and
+/// whether the run has all steps.
+fn say(queries: &[String]) -> Vec<(String, String, bool)> {
+    const SAY: &str = r#"
+console.log(JSON.stringify(input.map(query => {
+  const question = asked(query), { values, wrong } = numbers(question), names = Object.entries(wrong);
+  if (names.length) return [names.map(([name, why]) => `${name}: ${why}`).join(" "), "", false];
+  const result = run(question, values), { kind, text } = verdict(result);
+  return [`${kind} ${text}`, address(question).slice(1).split("&").sort().join("&"), result.rows.length - 1 === question.k];
+})));
+"#;
+    from_str(&printed(SAY, &json!(queries))).unwrap()
 }
 
 /// The title of a link to the bench is the verdict that the bench will show.
 #[test]
 #[ignore = "requires node"]
 fn links_to_the_bench_have_the_right_verdict() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
-    let (mut input, mut text) = (Vec::new(), String::new());
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "md") {
-            let page = fs::read_to_string(&path).unwrap();
-            for link in page.split("augmented.html?").skip(1) {
-                let link = link.split(')').next().unwrap();
-                let (query, verdict) = link
-                    .split_once("#bench \"")
-                    .unwrap_or_else(|| panic!("{}: {link} has no verdict", path.display()));
-                input.push(json!(format!("?{query}")));
-                let mut pairs: Vec<_> = query.split('&').collect();
-                pairs.sort_unstable();
-                writeln!(text, "{}, {}", verdict.trim_end_matches('"'), pairs.join("&")).unwrap();
-            }
-        }
+    let link = Regex::new(r#"augmented\.html(\?[^)#]*)#bench "([^"]*)"\)"#).unwrap();
+    let pages: String = PAGES.iter().map(|name| text(format!("book/src/{name}.md"))).collect();
+    let links: Vec<_> =
+        link.captures_iter(&pages).map(|found| [1, 2].map(|i| found[i].to_string())).collect();
+    assert_eq!(links.len(), pages.matches("augmented.html?").count(), "a link has no verdict");
+    for verdict in ["2-cycle", "converging", "false zero", "fixed point", "separated"] {
+        assert!(links.iter().any(|[_, title]| title == verdict), "no link has the verdict {verdict}");
     }
-    let verdicts: BTreeSet<_> = text.lines().filter_map(|line| line.split(',').next()).collect();
-    assert_eq!(Vec::from_iter(verdicts), ["2-cycle", "converging", "false zero", "fixed point", "separated"]);
-    const ASKED: &str = r#"
-for (const query of input) {
-  const question = asked(query), { values, wrong } = numbers(question), result = run(question, values);
-  // The address has to contain exactly the settings, without misspelt names.
-  const ended = result.rows.length - 1 === question.k ? "" : "ended early";
-  console.log([verdict(result).kind, address(question).slice(1).split("&").sort().join("&")].join(", ") + ended + Object.keys(wrong));
-}
-"#;
-    let found = printed(ASKED, &input.into());
-    assert_eq!(found, text);
+    let queries: Vec<_> = links.iter().map(|[query, _]| query.clone()).collect();
+    for ([query, title], (said, address, is_whole)) in links.iter().zip(say(&queries)) {
+        assert!(said.starts_with(&format!("{title} ")) && is_whole, "{query}: {said}");
+        // The address has to contain exactly the settings, without misspelt names.
+        let mut pairs: Vec<_> = query[1..].split('&').collect();
+        pairs.sort_unstable();
+        assert_eq!(pairs.join("&"), address);
+    }
 }
 
+/// Numbers are read like in the crate, and shown within half a unit of the last digit.
 #[test]
 #[ignore = "requires node"]
-fn numbers_are_parsed_like_in_the_crate() {
-    let mut texts: Vec<String> = "0 -0 +1 0.05 5e-2 1/20 -7/3 +7/21 .5 5. 1.e3 1E+3 9.81 1e-45 7e-46 1.4e-45 1e39 1e308 1.8e308 1e309
-        4.9e-324 2e-324 3e-324 2.2250738585072011e-308 1e-400 1e400 16777217 16777219 9007199254740993 9007199254740995
-        9007199254740993.0000000000001 3.4028235677973366e38 3.4028235677973365e38 -1e-320 0e5 1/3 000.100
-        x 1e 1e+ e5 . - + 1/0 1/ /2 1/-2 1,5 0x 1_0 NaN Infinity 1e5.0 1e5e5 --1 1//2 ½ ٣"
-        .split_whitespace()
-        .map(String::from)
-        .collect();
-    texts.push(String::new());
-    let mut draw = Random(3);
-    for _ in 0..300 {
-        let power = draw.next() % 90;
-        texts.push(format!("{}.{}e{}", draw.next(), draw.next(), power as i64 - 60));
-        texts.push(format!("-{}e-{}", draw.next(), 300 + power % 30));
-    }
-    let mut expected = String::new();
-    for text in &texts {
-        let exact = text.parse::<Exact>();
-        let show = |exact: &Exact| exact.to_string();
-        let float = |exact: &Exact| exact.to_f64().map_or("refused".into(), bits);
-        let single = |exact: &Exact| exact.to_f32().map_or("refused".into(), |x| bits(x.into()));
-        let three = exact.as_ref().map(|exact| [show(exact), float(exact), single(exact)].join(" "));
-        writeln!(expected, "{text}: {}", three.unwrap_or("refused".into())).unwrap();
-    }
+fn numbers_are_read_and_shown_like_in_the_crate() {
     const READ: &str = r#"
 const attempt = f => { try { return f(); } catch (error) { if (error instanceof RangeError) return "refused"; throw error; } };
 for (const text of input) {
-  console.log(`${text}: ` + attempt(() => {
+  console.log(attempt(() => {
     const a = parse(text);
     const floats = ["f64", "f32"].map(name => attempt(() => {
       const x = systems[name].read(a);
@@ -391,44 +308,50 @@ for (const text of input) {
       if (name === "f64" && !Object.is(nearest(exactly(x), 53, -1074), x)) return "another when exact";
       return hex(x);
     }));
-    return [ratio(a), ...floats].join(" ");
+    return [ratio(a), ...floats, brief(a, 3), brief(a, 12)].join(" ");
   }));
 }
 "#;
-    let found = printed(&format!("{FLOAT}{READ}"), &json!(texts));
-    assert_same_lines(&expected, &found);
-}
-
-/// Rounded numbers are within half a unit of the last digit.
-#[test]
-#[ignore = "requires node"]
-fn displayed_numbers_are_rounded_once() {
-    let mut texts: Vec<String> = "1 -1 999 999.4 999.5 999.6 0.9995 0.99951 123456 999499 999500 1e6 0.0001 0.00009999 0.000099995 1e-5 12345e300 1e-399
-        1/3 -2/3 100 1000 10 1e5 4.81 0.05 2.405 1/7"
-        .split_whitespace()
-        .map(String::from)
-        .collect();
-    let mut draw = Random(4);
-    texts.extend((0..300).map(|_| format!("{}e{}", draw.next() + 1, draw.next() as i64 % 600 - 300)));
-    let input: Value = texts.iter().flat_map(|text| [3, 12].map(|digits| json!([text, digits]))).collect();
-    let script = "for (const [text, digits] of input) console.log(brief(parse(text), digits));";
-    let found = printed(script, &input);
-    for (i, line) in found.lines().enumerate() {
-        let (text, digits) = (&texts[i / 2], [3, 12][i % 2]);
-        let plain: String = line
-            .replace("·10", "e")
-            .chars()
-            .map(|c| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|d| d == c).map_or(c, |d| char::from(b'0' + d as u8)))
-            .map(|c| if "⁻−".contains(c) { '-' } else { c })
-            .collect();
-        let [shown, meant] = [&plain, text].map(|text| text.parse::<Exact>().unwrap());
-        // One unit of the last digit is at most 10^(1 - digits) times the number.
-        let allowed = meant.abs() / Exact::from(2) / format!("1e{}", digits - 1).parse::<Exact>().unwrap();
-        assert!((shown - meant).abs() <= allowed, "{text} to {digits} digits: {line}");
-        let written = plain.split('e').next().unwrap().trim_start_matches(['-', '0', '.']).replace('.', "");
-        assert!(written.trim_end_matches('0').len() <= digits, "{text} to {digits} digits: {line}");
+    let texts = "0 -0 +1 0.05 5e-2 1/20 -7/3 +7/21 .5 5. 1.e3 1E+3 9.81 1e-45 7e-46 1.4e-45 1e39 1e308 1.8e308 1e309
+        4.9e-324 2e-324 3e-324 2.2250738585072011e-308 1e-400 1e400 16777217 16777219 9007199254740993 9007199254740995
+        9007199254740993.0000000000001 3.4028235677973366e38 3.4028235677973365e38 -1e-320 0e5 1/3 000.100
+        x 1e 1e+ e5 . - + 1/0 1/ /2 1/-2 1,5 0x 1_0 NaN Infinity 1e5.0 1e5e5 --1 1//2 ½ ٣
+        1 -1 999 999.4 999.5 999.6 0.9995 0.99951 123456 999499 999500 1e6 0.0001 0.00009999 0.000099995 1e-5 12345e300
+        1e-399 -2/3 100 1000 10 1e5 4.81 2.405 1/7";
+    let mut texts: Vec<_> = texts.split_whitespace().chain([""]).map(String::from).collect();
+    let mut draw = Random(3);
+    for _ in 0..300 {
+        let power = draw.next() % 90;
+        texts.push(format!("{}.{}e{}", draw.next(), draw.next(), power as i64 - 60));
+        texts.push(format!("-{}e-{}", draw.next(), 300 + power % 30));
+        texts.push(format!("{}e{}", draw.next() + 1, draw.next() as i64 % 600 - 300));
     }
-    assert_eq!(found.lines().count(), 2 * texts.len());
+    let found = printed(&format!("{FLOAT}{READ}"), &json!(texts));
+    assert_eq!(found.lines().count(), texts.len());
+    for (text, line) in texts.iter().zip(found.lines()) {
+        let Ok(exact) = text.parse::<Exact>() else {
+            assert_eq!(line, "refused", "{text}");
+            continue;
+        };
+        let double = exact.to_f64().map_or("refused".into(), bits);
+        let single = exact.to_f32().map_or("refused".into(), |x| bits(x.into()));
+        let words: Vec<_> = line.split(' ').collect();
+        assert_eq!(words[..3], [exact.to_string(), double, single], "{text}");
+        for (shown, digits) in words[3..].iter().zip([3, 12]) {
+            let digit =
+                |c| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|d| d == c).map_or(c, |d| char::from(b'0' + d as u8));
+            let plain: String =
+                shown.replace("·10", "e").replace(['⁻', '−'], "-").chars().map(digit).collect();
+            // One unit of the last digit is at most 10^(1 - digits) times the number.
+            let allowed =
+                exact.abs() / Exact::from(2) / format!("1e{}", digits - 1).parse::<Exact>().unwrap();
+            let error = (plain.parse::<Exact>().unwrap() - &exact).abs();
+            let written =
+                plain.split('e').next().unwrap().trim_start_matches(['-', '0', '.']).replace('.', "");
+            let is_short = written.trim_end_matches('0').len() <= digits;
+            assert!(error <= allowed && is_short, "{text} to {digits} digits: {shown}");
+        }
+    }
 }
 
 #[test]
@@ -436,15 +359,6 @@ fn displayed_numbers_are_rounded_once() {
 fn other_settings_have_verdicts() {
     // The sum c + ε overflows, and the quotient by it is 0: every displayed number looks normal.
     let overflow = "?c=1e38&eps=3e38&numbers=f32";
-    let system = SpringMass { c: 100.0_f32, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
-    let (eps, mut lambda) = (2.99e6, 0.0);
-    let p = [0; 2].map(|_| {
-        let u = augmented::deflection(&system, &eps, &lambda);
-        lambda = augmented::update(&system, &eps, &lambda, &u);
-        contact::penetration(&system, &u)
-    });
-    assert!(p[0] * p[1] < 0.0 || p[1].abs() > p[0].abs());
-    let moving = "?eps=2.99e6&k=1&numbers=f32";
     let long = "?c=1.23456789012345678901234567890123456&eps=2.3456789012345678901234567890123456789&k=200&numbers=exact";
     // Error of the multiplier in the cycle, now and in the next step; to three digits R is 4.81.
     let default = SpringMass { c: 100.0_f64, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
@@ -455,12 +369,12 @@ fn other_settings_have_verdicts() {
         lambda = augmented::update(&default, &eps, &lambda, &u);
         error
     });
+    assert_ne!(errors[6], errors[7]);
     let cycle = format!("2-cycle by {} now and by {} next", errors[6], errors[7]);
-    assert!(errors[6] != errors[7] && cycle.matches("·10⁻¹¹").count() == 2);
     let expected = [
         ("?eps=1e5&k=6", &*cycle),
         (overflow, "overflow too large for f32"),
-        (moving, "moving by rounding"),
+        ("?eps=2.99e6&k=1&numbers=f32", "moving by rounding"),
         (long, "converging binary digits"),
         ("?lambda=4.81&numbers=exact", "fixed point this is the solution"),
         ("?k=3000&numbers=exact", "converging at most 200 steps"),
@@ -469,20 +383,11 @@ fn other_settings_have_verdicts() {
         ("?eps=0", "eps: not greater than 0"),
         ("?H=1,05&numbers=f32&m=1e-50&g=1e99", "m: not zero g: too large H: not a number"),
     ];
-    const SAY: &str = r#"
-for (const query of input) {
-  const question = asked(query), { values, wrong } = numbers(question), names = Object.entries(wrong);
-  if (names.length) { console.log(names.map(([name, why]) => `${name}: ${why}`).join(" ")); continue; }
-  const { kind, text } = verdict(run(question, values));
-  console.log(`${kind} ${text}`);
-}
-"#;
-    let found = printed(SAY, &json!(expected.map(|(query, _)| query)));
-    assert_eq!(found.lines().count(), expected.len());
-    for ((query, words), line) in expected.into_iter().zip(found.lines()) {
-        let mut rest = line;
+    let said = say(&expected.map(|(query, _)| query.to_string()));
+    for ((query, words), (said, ..)) in expected.into_iter().zip(&said) {
+        let mut rest = said.as_str();
         for word in words.split(' ') {
-            rest = rest.split_once(word).unwrap_or_else(|| panic!("{query}: no {word:?} in {line}")).1;
+            rest = rest.split_once(word).unwrap_or_else(|| panic!("{query}: no {word:?} in {said}")).1;
         }
     }
 }
@@ -523,25 +428,30 @@ const opened = search => {
 const numbersIn = text => (text.match(/-?[\d.]+(e[+-]?\d+)?/g) ?? []).map(Number);
 "#;
 
-/// Runs the whole script and checks the drawings.
+/// Runs the whole script and checks the drawings. For the example the steps are (1/4, 1), (1/8, 3/2), … on the line of
+/// equilibrium, and the corner of the plane is at p = N = 0.
 #[test]
 #[ignore = "requires node"]
 fn drawings_agree_with_the_table() {
     const DRAWN: &str = r#"
-for (const search of input.asked) {
+console.log(JSON.stringify(input.asked.map(search => {
   const root = opened(search), find = selector => root.querySelector(selector);
   root.on.click({ target: { dataset: { step: "1" } } });
-  const forces = find(".bench-forces"), drawings = [find(".bench-system"), forces, find(".bench-decay")];
-  const wrong = drawings.flatMap(svg => svg.all).filter(part => /NaN|Infinity|undefined/.test(JSON.stringify(part.attributes)));
-  // Each step is a point on the line of equilibrium.
-  const line = forces.all.find(part => part.attributes.class === "bench-spring");
-  const [x0, y0, x1, y1] = numbersIn(line.attributes.d), dots = forces.all.filter(part => part.name === "circle");
-  const off = dots.filter(({ attributes: { cx, cy } }) =>
-    Math.abs((cx - x0) * (y1 - y0) - (cy - y0) * (x1 - x0)) > 0.02 * Math.hypot(x1 - x0, y1 - y0));
+  const forces = find(".bench-forces"), decay = find(".bench-decay"), all = [find(".bench-system"), forces, decay];
+  const wrong = all.flatMap(svg => svg.all).filter(part => /NaN|Infinity|undefined/.test(JSON.stringify(part.attributes)));
   const rows = find(".bench-table tbody").children, shown = find(".bench-verdict").text;
-  console.log([shown.split(",")[0], dots.length, rows.length, rows.at(-1).children[0].textContent,
-    new URLSearchParams(location.search).get("k"), wrong.length, off.length].join("|"));
-}
+  const line = (svg, kind, dashes) => numbersIn(svg.all.find(part =>
+    part.attributes.class === kind && part.attributes["stroke-dasharray"] === dashes)?.attributes.d ?? "");
+  const discs = (svg, kind) => svg.all.filter(part => part.name === "circle" && part.attributes.class.startsWith(kind))
+    .map(({ attributes: { cx, cy } }) => [Number(cx), Number(cy)]);
+  // Each step is a point on the line of equilibrium.
+  const [x0, y0, x1, y1] = line(forces, "bench-spring"), steps = discs(forces, "");
+  const off = steps.filter(([x, y]) => Math.abs((x - x0) * (y1 - y0) - (y - y0) * (x1 - x0)) > 0.02 * Math.hypot(x1 - x0, y1 - y0));
+  const text = [shown.split(",")[0], steps.length, rows.length, rows.at(-1).children[0].textContent,
+    new URLSearchParams(location.search).get("k"), wrong.length, off.length].join("|");
+  const corner = line(forces, "bench-plane bench-corner"), law = line(decay, "bench-faint", "4 3");
+  return [text, steps, corner, discs(decay, "bench-dot"), discs(decay, "bench-ring"), law];
+})));
 "#;
     // Settings, and the result after one more step: the verdict, the numbers of points and rows, k in the last row and in
     // the address, the number of invalid attributes, and the number of points off the line, where forces do not balance.
@@ -556,73 +466,39 @@ for (const search of input.asked) {
     ];
     let asked: Vec<_> = expected.iter().map(|(asked, _)| asked).collect();
     let input = json!({ "script": script().unwrap(), "asked": asked });
-    let found = node(&format!("{DOCUMENT}{DRAWN}"), &input);
-    assert_eq!(found.lines().collect::<Vec<_>>(), expected.map(|(_, drawn)| drawn));
+    type Points = Vec<[f64; 2]>;
+    type Drawing = (String, Points, Vec<f64>, Points, Points, Vec<f64>);
+    let drawings: Vec<Drawing> = from_str(&node(&format!("{DOCUMENT}{DRAWN}"), &input)).unwrap();
+    let texts: Vec<_> = drawings.iter().map(|drawing| drawing.0.as_str()).collect();
+    assert_eq!(texts, expected.map(|(_, drawn)| drawn));
+
+    // Paths are written in hundredths of a pixel.
+    let assert_close = |a: f64, b: f64| assert!((a - b).abs() <= 0.011, "{a} and {b}");
+    let (_, steps, corner, dots, rings, law) = &drawings[2];
+    let (metre, newton) = ((steps[0][0] - steps[1][0]) / 0.125, (steps[0][1] - steps[1][1]) / 0.5);
+    assert!(metre > 100.0 && newton > 10.0, "to the right and upwards");
+    let at = |p: f64, n: f64| [steps[0][0] + (p - 0.25) * metre, steps[0][1] - (n - 1.0) * newton];
+    for (step, p) in steps.iter().zip([0.25, 0.125, 0.0625, 0.03125, 0.015625]) {
+        let [x, y] = at(p, 2.0 - 4.0 * p);
+        assert_close(step[0], x);
+        assert_close(step[1], y);
+    }
+    let [x, y] = at(0.0, 0.0);
+    for (found, expected) in corner[1..5].iter().zip([y, x, y, x]) {
+        assert_close(*found, expected);
+    }
+    assert!(corner[0] < x && corner[5] < y, "p ≤ 0 and N ≥ 0");
+    // Each step halves the penetration, computed and exact: on a logarithmic axis the points lie on the line of ρᵏ. Its ends
+    // are rounded, but it is much longer than the distance of the steps.
+    assert_eq!(dots, rings);
+    let slope = (law[3] - law[1]) / (law[2] - law[0]);
+    assert!(dots.len() == 5 && slope > 0.0);
+    dots.iter().for_each(|dot| assert_close(law[1] + slope * (dot[0] - law[0]), dot[1]));
 }
 
 /// Document for the functions that draw, on a page without a bench.
 const STUB: &str =
     "const document = { createElementNS: (space, name) => new Element(name), querySelectorAll: () => [] };";
-
-/// For the example the steps are (1/4, 1), (1/8, 3/2), … on the line of equilibrium, and the corner of the plane is at
-/// p = N = 0.
-#[test]
-#[ignore = "requires node"]
-fn drawings_are_to_scale() {
-    const DRAWN: &str = r#"
-const { values } = numbers(input), result = run(input, values);
-const drawn = draw => {
-  const svg = document.createElementNS("", "svg");
-  Object.assign(svg, { clientWidth: 400, clientHeight: 300 });
-  draw(svg, seen(result), result, forceBox(seen(result)));
-  const of = name => svg.children.filter(child => child.name === name);
-  return {
-    paths: of("path").map(({ attributes: { class: kind, d } }) => [kind, numbersIn(d)]),
-    dots: of("circle").map(({ attributes: { class: kind, cx, cy } }) => [kind, [Number(cx), Number(cy)]]),
-  };
-};
-console.log(JSON.stringify([drawn(drawForces), drawn(drawDecay)]));
-"#;
-    let question = json!({ "c": "4", "m": "1", "g": "10", "l": "1", "H": "3", "eps": "4", "lambda": "0", "k": 3,
-        "numbers": "f64", "plane": "both" });
-    let found = printed(&format!("{DOCUMENT}{STUB}{PAGE}{DRAWN}"), &question);
-    let drawn: Value = serde_json::from_str(&found).unwrap();
-    let of = |drawing: usize, what: &str, kind: &str| -> Vec<Vec<f64>> {
-        let all = drawn[drawing][what].as_array().unwrap().iter().filter(|one| one[0] == kind);
-        all.map(|one| one[1].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()).collect()
-    };
-    // Paths are written in hundredths of a pixel.
-    let assert_close = |a: f64, b: f64| assert!((a - b).abs() <= 0.011, "{a} and {b}");
-    let (steps, corner) = (of(0, "dots", "bench-dot"), of(0, "paths", "bench-plane bench-corner"));
-    let spring = &of(0, "paths", "bench-spring")[0];
-    let metre = (steps[0][0] - steps[1][0]) / 0.125;
-    let newton = (steps[0][1] - steps[1][1]) / 0.5;
-    assert!(steps.len() == 4 && metre > 100.0 && newton > 10.0, "to the right and upwards");
-    let at = |p: f64, n: f64| [steps[0][0] + (p - 0.25) * metre, steps[0][1] - (n - 1.0) * newton];
-    for (step, (p, n)) in steps.iter().zip([(0.25, 1.0), (0.125, 1.5), (0.0625, 1.75), (0.03125, 1.875)]) {
-        let [x, y] = at(p, n);
-        assert_close(step[0], x);
-        assert_close(step[1], y);
-        let share = (x - spring[0]) / (spring[2] - spring[0]);
-        assert_close(spring[1] + share * (spring[3] - spring[1]), y);
-    }
-    let ([x, y], corner) = (at(0.0, 0.0), &corner[0]);
-    for (a, b) in [(corner[1], y), (corner[2], x), (corner[3], y), (corner[4], x)] {
-        assert_close(a, b);
-    }
-    assert!(corner[0] < x && corner[5] < y, "p ≤ 0 and N ≥ 0");
-
-    // Each step halves the penetration, computed and exact: on a logarithmic axis the points lie on the line of ρᵏ.
-    let (dots, rings) = (of(1, "dots", "bench-dot"), of(1, "dots", "bench-ring"));
-    let law = of(1, "paths", "bench-faint").pop().unwrap();
-    let slope = (law[3] - law[1]) / (law[2] - law[0]);
-    assert!(dots.len() == 4 && slope > 0.0);
-    for (dot, ring) in dots.iter().zip(&rings) {
-        assert_eq!(dot, ring);
-        // The ends of the line are rounded, but it is much longer than the distance of the steps.
-        assert_close(law[1] + slope * (dot[0] - law[0]), dot[1]);
-    }
-}
 
 /// The axes of the force diagram stay, also after the plane was dragged; they change if the solution would leave them, or
 /// by their button. The line before the last change stays as a faint one. A finger on the plane does not scroll.
@@ -638,43 +514,32 @@ const former = () => forces.all.filter(part => part.attributes.class === "bench-
 const seen = () => [ticks().join(";"), line(), find("[data-text=H]").value, String(former())];
 let prevented = 0;
 const event = { target: { closest: () => slider, dataset: {} }, preventDefault() { prevented += 1; }, pointerId: 1 };
-const states = [seen()];
 system.on.touchstart(event);
 system.on.touchstart({ ...event, target: { closest: () => null } });
 if (prevented !== 1) throw Error("a finger beside the plane");
-system.on.pointerdown(event);
-system.on.pointermove({ clientY: 178 });
-states.push(seen());
-system.on.pointermove({ clientY: 100 });
-states.push(seen());
-on.pointerup();
-states.push(seen());
-system.on.pointerdown(event);
-system.on.pointermove({ clientY: 160 });
-on.pointerup();
-states.push(seen());
-root.on.click({ target: { dataset: { step: "fit" } } });
-states.push(seen());
 const press = key => root.on.keydown({ key, target: { getAttribute: () => "slider" }, stopPropagation() {}, preventDefault() {} });
-press("Home");
-press("End");
-states.push(seen());
-console.log(JSON.stringify([states, ticks()]));
+const drag = clientY => { system.on.pointerdown(event); system.on.pointermove({ clientY }); };
+const fit = { target: { dataset: { step: "fit" } } }, move = system.on.pointermove;
+const acts = [() => {}, () => drag(178), () => move({ clientY: 100 }), () => on.pointerup(),
+  () => { drag(160); on.pointerup(); }, () => root.on.click(fit), () => { press("Home"); press("End"); }];
+console.log(JSON.stringify(acts.map(act => { act(); return seen(); })));
 "#;
     let found = node(&format!("{DOCUMENT}{MOVED}"), &json!({ "script": script().unwrap() }));
-    let (states, ticks): (Vec<[String; 4]>, Vec<String>) = serde_json::from_str(&found).unwrap();
-    let [start, dragged, far, released, back, fitted, end] = &states[..] else { panic!("{found}") };
-    assert!(ticks.len() >= 6, "{ticks:?}");
+    let [start, dragged, far, released, back, fitted, end]: [[String; 4]; 7] = from_str(&found).unwrap();
+    assert!(start[0].split(';').count() >= 6, "{start:?}");
     assert_eq!(start[0], dragged[0], "ticks");
     assert!(start[1] != dragged[1] && start[2] != dragged[2], "{found}");
     assert_ne!(far[0], dragged[0], "ticks");
     assert_eq!([&far[0], &far[0]], [&released[0], &back[0]], "ticks");
     assert_ne!(back[0], fitted[0], "ticks");
-    let former = [start, dragged, far, released, back, fitted].map(|state| state[3].as_str());
-    assert_eq!(former, ["0", "1", "1", "1", "1", "0"], "faint lines");
     // The drawing shows lengths up to 4 m between 24 and 216 pixels, and keeps them.
-    let heights = [dragged, far, back, end].map(|state| state[2].as_str());
-    assert_eq!(heights, ["3.21", "1.58", "2.83", "4"], "H");
+    assert_eq!(
+        [&dragged, &far, &back, &end].map(|state| state[2].as_str()),
+        ["3.21", "1.58", "2.83", "4"],
+        "H"
+    );
+    let former = [start, dragged, far, released, back, fitted].map(|[.., former]| former);
+    assert_eq!(former, ["0", "1", "1", "1", "1", "0"], "faint lines");
 }
 
 /// With Euler steps of size 1 the points are the rings of the augmentations, and the curve is above them; at h = 4 the
@@ -688,53 +553,44 @@ const drawn = h => {
   const text = drawFlow(svg, 4, h), circles = svg.children.filter(child => child.name === "circle");
   const of = kind => circles.filter(({ attributes }) => attributes.class === kind).map(({ attributes: { cx, cy } }) => [cx, cy].map(x => Number(Number(x).toFixed(6))));
   const curve = numbersIn(svg.children.find(({ attributes }) => attributes.class === "bench-spring").attributes.d);
-  return { text, dots: of("bench-dot"), rings: of("bench-ring"), curve };
+  return [text, of("bench-dot"), of("bench-ring"), curve];
 };
 console.log(JSON.stringify([1, 4, 6].map(drawn)));
 "#;
-    let found = printed(&format!("{DOCUMENT}{STUB}{PAGE}{DRAWN}"), &json!(null));
-    let drawn: Value = serde_json::from_str(&found).unwrap();
-    let points =
-        |i: usize, kind: &str| -> Vec<(f64, f64)> { serde_json::from_value(drawn[i][kind].clone()).unwrap() };
+    type Drawing = (String, Vec<(f64, f64)>, Vec<(f64, f64)>, Vec<f64>);
+    let drawn: [Drawing; 3] =
+        from_str(&printed(&format!("{DOCUMENT}{STUB}{PAGE}{DRAWN}"), &json!(null))).unwrap();
     // Between p₀ and −p₀ are 200 pixels, and p₀ is at a height of 25; the time 1 is 50 pixels. Millionths of a pixel are rounded.
     let rings: Vec<_> =
         (0..9).map(|k| (30.0 + 50.0 * f64::from(k), 125.0 - 100.0 * 0.5_f64.powi(k))).collect();
-    assert_eq!(points(0, "dots"), rings);
-    assert_eq!(points(0, "rings"), rings);
-    let curve: Vec<f64> = serde_json::from_value(drawn[0]["curve"].clone()).unwrap();
-    for point in curve.chunks(2) {
+    assert_eq!([&drawn[0].1, &drawn[0].2], [&rings; 2]);
+    for point in drawn[0].3.chunks(2) {
         // The path is written in hundredths.
         let t = (point[0] - 30.0) / 50.0;
         assert!((point[1] - (125.0 - 100.0 * (-t / 2.0).exp())).abs() <= 0.011, "{point:?}");
     }
-    assert_eq!(points(1, "dots"), [(30.0, 25.0), (230.0, 225.0), (430.0, 25.0)]);
-    let texts = [0, 1, 2].map(|i| drawn[i]["text"].as_str().unwrap());
-    assert_eq!(
-        texts,
-        [
-            "Each step multiplies p by 0.5: they converge.",
-            "Each step multiplies p by −1: they neither converge nor diverge, with alternating sign.",
-            "Each step multiplies p by −2: they diverge, with alternating sign.",
-        ]
-    );
+    assert_eq!(drawn[1].1, [(30.0, 25.0), (230.0, 225.0), (430.0, 25.0)]);
+    let texts = [
+        "Each step multiplies p by 0.5: they converge.",
+        "Each step multiplies p by −1: they neither converge nor diverge, with alternating sign.",
+        "Each step multiplies p by −2: they diverge, with alternating sign.",
+    ];
+    assert_eq!(drawn.map(|(text, ..)| text), texts);
 }
 
 /// The fields of the bench have the units of the page of notation.
 #[test]
 fn fields_have_the_units_of_the_notation() {
-    let page = include_str!("../../theme/bench.js");
-    let notation = include_str!("../../src/notation.md");
     let field = Regex::new(r#"(?m)^  \w+: \{ sign: "([^"]*)", name: "[^"]*", unit: "([^"]*)""#).unwrap();
-    let latex = |sign: &str| sign.replace('ε', r"\varepsilon").replace("λ₀", r"\lambda");
-    let mut fields = 0;
-    for found in field.captures_iter(page) {
-        let row = Regex::new(&format!(
-            r"(?m)^\| \${}(?: > 0)?\$ \|[^|]*\| ([^|]*) \|",
-            regex::escape(&latex(&found[1]))
-        ));
-        let row = row.unwrap().captures(notation).unwrap_or_else(|| panic!("no row of {}", &found[1]));
-        assert_eq!(found[2], row[1], "{}", &found[1]);
-        fields += 1;
+    let fields: Vec<_> = field.captures_iter(PAGE).collect();
+    assert_eq!(fields.len(), 7);
+    for found in fields {
+        let sign = found[1].replace('ε', r"\varepsilon").replace("λ₀", r"\lambda");
+        let row = format!(
+            r"(?m)^\| \${}(?: > 0)?\$ \|[^|]*\| {} \|",
+            regex::escape(&sign),
+            regex::escape(&found[2])
+        );
+        assert!(Regex::new(&row).unwrap().is_match(&text("book/src/notation.md")), "{sign}: {}", &found[2]);
     }
-    assert_eq!(fields, 7);
 }

@@ -2,8 +2,6 @@
 
 mod command;
 mod exercises;
-
-mod letters;
 mod proofs;
 mod tables;
 

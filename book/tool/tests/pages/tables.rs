@@ -1,12 +1,12 @@
 //! Checks of text written by hand: the numbers in tables, the names of code items, and the labels of sources.
 
 use super::page;
-use crate::files::root;
+use crate::files::{files, root, text};
 use book_tool::PAGES;
 use regex::Regex;
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, penalty, system};
 use spring_mass_contact::number::Exact;
-use std::fs;
+use std::path::PathBuf;
 
 fn exact(text: &str) -> Exact {
     text.replace('−', "-").parse().unwrap_or_else(|_| panic!("{text} is not a number"))
@@ -16,11 +16,14 @@ fn example(g: &str) -> SpringMass<Exact> {
     SpringMass { c: "4", m: "1", g, l: "1", h: "3" }.map(|text| exact(text))
 }
 
-/// Returns the rows of the table with this head.
-fn rows(page: &str, head: &str) -> Vec<Vec<String>> {
+/// Returns the rows of the table with this head, of which there have to be `count`.
+fn rows(name: &str, head: &str, count: usize) -> Vec<Vec<String>> {
+    let page = page(name);
     let (_, table) = page.split_once(&format!("\n{head}\n")).unwrap_or_else(|| panic!("no table {head}"));
     let cells = |row: &str| row.trim_matches('|').split('|').map(|cell| cell.trim().to_string()).collect();
-    table.lines().skip(1).take_while(|line| line.starts_with('|')).map(cells).collect()
+    let rows: Vec<_> = table.lines().skip(1).take_while(|line| line.starts_with('|')).map(cells).collect();
+    assert_eq!(rows.len(), count, "{name}: {head}");
+    rows
 }
 
 fn assert_row(row: &[String], expected: &[Exact]) {
@@ -32,18 +35,14 @@ fn assert_row(row: &[String], expected: &[Exact]) {
 fn tables_agree_with_the_functions() {
     let default = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.map(|text| exact(text));
     let head = r"| system | $c$ | $m$ | $g$ | $l$ | $H$ | $\Delta$ | $m\,g$ | $R$ |";
-    let systems = rows(&page("introduction"), head);
-    assert_eq!(systems.len(), 2);
-    for (row, s) in systems.iter().zip([example("10"), default]) {
+    for (row, s) in rows("introduction", head, 2).iter().zip([example("10"), default]) {
         let derived = [system::gap(&s), system::weight(&s), system::reaction(&s)];
         let parameters = [&s.c, &s.m, &s.g, &s.l, &s.h].map(Exact::clone);
         assert_row(&row[1..], &[&parameters[..], &derived].concat());
     }
 
     let head = r"| $g$ | $R = g - 8$ | state | $u^* = \min(g/4, 2)$ | $p^*$ | $N^*$ |";
-    let states = rows(&page("contact"), head);
-    assert_eq!(states.len(), 3);
-    for row in states {
+    for row in rows("contact", head, 3) {
         let s = example(&row[0]);
         let (u, r) = (contact::deflection(&s), system::reaction(&s));
         let state = ["separated", "grazing", "contact"][(r.cmp(&exact("0")) as i8 + 1) as usize];
@@ -55,9 +54,7 @@ fn tables_agree_with_the_functions() {
 
     let s = example("10");
     let head = r"| $\varepsilon$ | $c + \varepsilon$ | $p = 2/(c + \varepsilon)$ | $u = 2 + p$ | $N = \varepsilon\,p$ | $R - N = 4p$ |";
-    let penalties = rows(&page("penalty"), head);
-    assert_eq!(penalties.len(), 4);
-    for row in penalties {
+    for row in rows("penalty", head, 4) {
         let eps = exact(&row[0]);
         let u = penalty::deflection(&s, &eps);
         let force = penalty::contact_force(&s, &eps, &u);
@@ -68,9 +65,8 @@ fn tables_agree_with_the_functions() {
     }
 
     let head = r"| $k$ | $\lambda_k$ | $u_k$ | $p_k = u_k - 2$ | $\lambda_k + 4p_k$ |";
-    let (steps, eps, mut lambda) = (rows(&page("augmented"), head), exact("4"), exact("0"));
-    assert_eq!(steps.len(), 4);
-    for (k, row) in steps.iter().enumerate() {
+    let (eps, mut lambda) = (exact("4"), exact("0"));
+    for (k, row) in rows("augmented", head, 4).iter().enumerate() {
         let u = augmented::deflection(&s, &eps, &lambda);
         let next = augmented::update(&s, &eps, &lambda, &u);
         let p = contact::penetration(&s, &u);
@@ -80,12 +76,11 @@ fn tables_agree_with_the_functions() {
 
     // Three decimals, so the error is at most half of the third.
     let head = r"| $k$ | $\mathrm e^{-k}$ | $\rho^k = 2^{-k}$ | $\mathrm e^{-k/2}$ |";
-    for row in rows(&page("convergence"), head) {
+    for row in rows("convergence", head, 3) {
         let [k, below, iterate, above] = [0, 1, 2, 3].map(|i| row[i].parse::<f64>().unwrap());
         for (found, exact) in [(below, (-k).exp()), (iterate, 0.5_f64.powf(k)), (above, (-k / 2.0).exp())] {
             assert!((found - exact).abs() <= 0.5e-3, "{row:?}: {found} for {exact}");
         }
-        assert!(below < iterate && iterate < above);
     }
 }
 
@@ -93,50 +88,36 @@ fn tables_agree_with_the_functions() {
 #[test]
 fn named_items_exist() {
     let name = Regex::new(r"`(\w+)::(\w+)`").unwrap();
+    let sources = files(&root().join("src"), ".rs");
     let mut seen = 0;
     for page_name in PAGES {
         for found in name.captures_iter(&page(page_name)) {
             let (module, item) = (&found[1], &found[2]);
-            let files = ["chapter/", ""].map(|folder| format!("src/{folder}{module}.rs"));
-            let sources: String = files
-                .into_iter()
-                .chain(folder(module))
-                .filter_map(|file| fs::read_to_string(root().join(file)).ok())
-                .collect();
-            if sources.is_empty() {
-                continue; // an associated item, or one of another crate
-            }
+            // A module has a file, here or in `chapter`, and may have a folder.
+            let places = ["src/chapter", "src"].map(|folder| root().join(folder).join(module));
+            let is_part = |path: &&PathBuf| {
+                places.iter().any(|place| path.starts_with(place) || **path == place.with_extension("rs"))
+            };
+            let text: String = sources.iter().filter(is_part).map(text).collect();
             let declared = format!(r"\bpub (?:const )?(?:fn|struct|enum|trait|const|type|mod) {item}\b");
-            assert!(
-                Regex::new(&declared).unwrap().is_match(&sources),
-                "{page_name}.md names {module}::{item}, which does not exist"
-            );
-            seen += 1;
+            // Without sources it is an associated item, or one of another crate.
+            let exists = text.is_empty() || Regex::new(&declared).unwrap().is_match(&text);
+            assert!(exists, "{page_name}.md names {module}::{item}, which does not exist");
+            seen += usize::from(!text.is_empty());
         }
     }
     assert!(seen > 20, "{seen}");
 }
 
-/// Returns the files of a module's folder and its subfolders.
-fn folder(module: &str) -> Vec<String> {
-    let entries = fs::read_dir(root().join("src").join(module)).into_iter().flatten();
-    let paths = entries.map(|entry| format!("{module}/{}", entry.unwrap().file_name().to_str().unwrap()));
-    paths.flat_map(|path| [vec![format!("src/{path}")], folder(&path)].concat()).collect()
-}
-
-/// The id of a source corresponds to its label, such as `courant-1943` for **Courant 1943**.
+/// The words of the id of a source are in its label, such as `courant-1943` and **Courant 1943**.
 #[test]
 fn ids_of_sources_agree_with_their_labels() {
-    let entry = Regex::new(r#"^<span id="([\w-]+)">\*\*([^*]+)\.\*\*</span>"#).unwrap();
-    let other = Regex::new(r"[^a-z0-9]+").unwrap();
-    let mut seen = 0;
-    for text in page("sources").split("\n- ").skip(1) {
-        let found = entry.captures(text).unwrap_or_else(|| panic!("no id and label: {text}"));
-        // Later years and conjunctions are not part of the id.
+    let entry = Regex::new(r#"(?m)^- <span id="([\w-]+)">\*\*([^*]+)\.\*\*</span>"#).unwrap();
+    let page = page("sources");
+    let found: Vec<_> = entry.captures_iter(&page).collect();
+    assert_eq!(found.len(), page.matches("\n- ").count(), "a source has no id and label");
+    for found in found {
         let label = found[2].to_lowercase().replace('é', "e");
-        let label = label.split(", 20").next().unwrap().replace(" and others", "").replace(" and ", " ");
-        assert_eq!(other.replace_all(&label, "-"), found[1]);
-        seen += 1;
+        assert!(found[1].split('-').all(|word| label.contains(word)), "{} is not {label}", &found[1]);
     }
-    assert!(seen > 25, "{seen}");
 }
