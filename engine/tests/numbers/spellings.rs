@@ -257,3 +257,72 @@ fn formatting_with_a_precision_agrees_with_f64() {
     let third = Mpfr::rounded(200, 1) / Mpfr::int(3);
     assert_eq!(format!("{third:.60}"), format!("0.{}", "3".repeat(60)));
 }
+
+/// Texts of the characters of numbers, most of which are numbers or nearly so, and any others.
+fn any_text() -> impl Strategy<Value = String> {
+    prop_oneof![
+        4 => "[-+]?[0-9]{0,6}[.]?[0-9]{0,6}([eE][-+]?[0-9]{1,7})?",
+        2 => "[-+]?0[xX][0-9a-fA-F]{0,6}[.]?[0-9a-fA-F]{0,6}([pP][-+]?[0-9]{1,7})?",
+        1 => "[-+]?[0-9]{1,9}/[-+]?[0-9]{1,9}",
+        1 => "[0-9./eExXpP+ _-]{0,12}",
+        1 => "\\PC{0,12}",
+    ]
+}
+
+/// Returns the digits of a number without a point, its exponent with their number behind the point, and its bases
+/// of digits and exponent; `None` if it is no number.
+fn parts(text: &str) -> Option<(Integer, i64, [i32; 2])> {
+    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let hexadecimal = unsigned.strip_prefix("0x").or(unsigned.strip_prefix("0X"));
+    let (number, marks, bases) =
+        hexadecimal.map_or((unsigned, ['e', 'E'], [10, 10]), |x| (x, ['p', 'P'], [16, 2]));
+    let (mantissa, exponent) = number.split_once(marks).unwrap_or((number, "0"));
+    let size = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits = format!("{whole}{fraction}");
+    let is_number = |text: &str, base: i32| !text.is_empty() && text.chars().all(|c| c.is_digit(base as u32));
+    if !is_number(&digits, bases[0]) || !is_number(size, 10) {
+        return None;
+    }
+    let per_digit = if bases[0] == 16 { 4 } else { 1 };
+    let exponent: i64 = exponent.parse().unwrap_or(i64::MAX / 2);
+    let digits = Integer::from_str_radix(&digits, bases[0]).expect("digits");
+    Some((
+        if text.starts_with('-') { -digits } else { digits },
+        exponent,
+        [per_digit * fraction.len() as i32, bases[1]],
+    ))
+}
+
+/// Every text is parsed exactly, or refused for its reason.
+#[test]
+fn any_text_is_a_number_or_refused() {
+    let power = |base: i32, n: i64| {
+        Exact::from(Rational::from(Integer::from(Integer::i_pow_u(base, n.max(0) as u32))))
+    };
+    for_all(any_text(), |text| {
+        let number = read(&text);
+        prop_assert_eq!(Mpfr::parse(&text, 53).map(drop), number.clone().map(drop));
+        match (number, parts(&text)) {
+            (Ok(x), Some((digits, exponent, [behind, base]))) => {
+                prop_assert!(exponent.abs() <= i64::from(MAX_EXPONENT));
+                let exponent = exponent - i64::from(behind);
+                let digits = Exact::from(Rational::from(digits));
+                prop_assert_eq!(x * power(base, -exponent), digits * power(base, exponent));
+            }
+            (Ok(x), None) => {
+                let (p, q) = text.split_once('/').expect("a fraction");
+                let [p, q] =
+                    [p, q].map(|text| text.strip_prefix('+').unwrap_or(text).parse::<Integer>().unwrap());
+                prop_assert_eq!(x * Exact::from(Rational::from(q)), Exact::from(Rational::from(p)));
+            }
+            (Err(ParseError::Exponent), Some((_, exponent, _))) => {
+                prop_assert!(exponent.abs() > i64::from(MAX_EXPONENT));
+            }
+            (Err(ParseError::NotANumber | ParseError::Empty), parts) => prop_assert_eq!(parts, None),
+            (Err(ParseError::DivisionByZero), _) => prop_assert!(text.trim_end_matches('0').ends_with('/')),
+            other => prop_assert!(false, "{:?}", other),
+        }
+        Ok(())
+    });
+}
