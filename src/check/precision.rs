@@ -1,7 +1,8 @@
 //! Parameters of less precision than requested.
 
 use super::observation::Observation;
-use super::problems::{DIGITS, decimal, short};
+use super::problems::DIGITS;
+use super::scales::{decimal, short};
 use crate::chapter::SpringMass;
 use crate::number::{Exact, ToExact};
 use std::fmt;

@@ -6,7 +6,9 @@ mod judged;
 mod programs;
 
 use super::diagnosis::with_penalties;
-use super::program::{Constants, Mistake, Results, edits, numbers, value};
+use super::observation::Observation;
+use super::program::{Known, Program, Reference};
+use super::scales::scales;
 use super::*;
 use crate::chapter::{SpringMass, augmented, contact, structure, system};
 use crate::number::{Ball, PositivePart, ToExact};
@@ -48,15 +50,32 @@ fn run_within(tolerance: &str, problems: &[Problem], solver: impl Fn(&Problem) -
     check(problems, &number(tolerance), ask).unwrap()
 }
 
-/// Returns the answer of a program with these results and this number k.
-fn answer(results: &Results, problem: &Problem, k: Option<&Exact>) -> Answer {
-    let [deflection, contact_force] = results.values(problem, k);
+/// Returns the answer of a program with this number k.
+fn answer(program: &Program, problem: &Problem, k: Option<&Exact>) -> Answer {
+    let [deflection, contact_force] = program.answer(problem, k);
     Answer { deflection, contact_force, ..Answer::default() }
 }
 
+/// Returns the right u and N for a system, by penalty if one is given.
+fn solution(system: SpringMass<Exact>, penalty: Option<Exact>) -> [Exact; 2] {
+    let exact = Problem { id: String::new(), family: Family::Contact, system, penalty }.solution();
+    [exact.deflection, exact.contact_force]
+}
+
+/// Returns the right answer for other parameters.
+fn solved(c: &Exact, m: &Exact, g: &Exact, l: &Exact, h: &Exact) -> [Exact; 2] {
+    let [c, m, g, l, h] = [c, m, g, l, h].map(Exact::clone);
+    solution(SpringMass { c, m, g, l, h }, None)
+}
+
+/// Returns the right answer for rounded lengths.
+fn with_lengths(s: &SpringMass<Exact>, round: impl Fn(&Exact) -> Exact) -> [Exact; 2] {
+    solved(&s.c, &s.m, &s.g, &round(&s.l), &round(&s.h))
+}
+
 fn right(problem: &Problem) -> Answer {
-    let exact = problem.solution();
-    Answer::new(exact.deflection, exact.contact_force)
+    let [u, n] = solution(problem.system.clone(), problem.penalty.clone());
+    Answer::new(u, n)
 }
 
 /// Returns the names of what explains the answers, with those of the same results.
@@ -66,13 +85,13 @@ fn names(report: &Report) -> Vec<&str> {
 }
 
 /// Returns u and N in equilibrium for N (N − R) = k/100.
-fn on_curve(problem: &Problem, k: &Exact) -> [Exact; 2] {
-    let system = problem.system.try_map(Exact::to_f64).unwrap();
+fn on_curve(exact: &SpringMass<Exact>, k: &Exact) -> [Exact; 2] {
+    let system = exact.try_map(Exact::to_f64).unwrap();
     let (r, k) = (system::reaction(&system), k.to_f64().unwrap() / 100.0);
     let root = (r * r + 4.0 * k).sqrt();
     let n = if r > 0.0 { (r + root) / 2.0 } else { 2.0 * k / (root - r) };
     let n = n.to_exact().unwrap();
-    let u = (system::weight(&problem.system) - &n) / &problem.system.c;
+    let u = (system::weight(exact) - &n) / &exact.c;
     [u.to_f64().unwrap().to_exact().unwrap(), n]
 }
 
@@ -80,12 +99,8 @@ fn rounded(x: &Exact, digits: usize) -> Exact {
     number(&x.decimal(digits, Round::Nearest))
 }
 
-/// Returns the right answer for other lengths.
-fn with_lengths(problem: &Problem, change: impl Fn(&Exact) -> Exact) -> [Exact; 2] {
-    let [l, h] = [&problem.system.l, &problem.system.h].map(change);
-    let exact =
-        Problem { system: SpringMass { l, h, ..problem.system.clone() }, ..problem.clone() }.solution();
-    [exact.deflection, exact.contact_force]
+fn decimals(x: &Exact, n: usize) -> Exact {
+    number(&format!("{:.n$}", x.to_f64().unwrap()))
 }
 
 /// Returns a report on answers that are all changed in the same way.
@@ -183,7 +198,7 @@ fn systems_have_the_property_of_their_family() {
     let rounded =
         Problem { system: stiff.system.map(|x| x.to_f64().unwrap().to_exact().unwrap()), ..stiff.clone() };
     let off = (stiff.solution().deflection - rounded.solution().deflection).abs();
-    assert!(off <= number(TOLERANCE) * assessment::scales(&stiff.system)[0].clone(), "{}", stiff.system);
+    assert!(off <= number(TOLERANCE) * scales(&stiff.system)[0].clone(), "{}", stiff.system);
     // The systems depend on the seed, and those of a family not on the others.
     assert_eq!(problems(1, 3, &[Stiff]), problems(1, 40, Family::ALL)[240..243]);
     assert_ne!(problems(2, 3, &[Stiff]), problems(1, 3, &[Stiff]));

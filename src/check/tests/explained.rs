@@ -1,18 +1,13 @@
 //! Agreement of answers with programs, and the numbers that are computed from answers.
 
 use super::*;
-use crate::check::observation::{Agreement, Observation};
+use crate::check::observation::Agreement;
 use crate::number::Tree;
 
 /// Returns a value that is computed from an answer with its problem.
 fn observed<T>(problem: &Problem, answer: Answer, value: impl FnOnce(Observation) -> T) -> T {
     let result = CaseResult::of(0, problem, Reply::Answered(Box::new(answer)), &number(TOLERANCE));
     value(Observation::of(0, &result, &number(TOLERANCE)).unwrap())
-}
-
-/// Returns the results of a program without a condition.
-fn always(u: Tree, n: Tree) -> Results {
-    Results { condition: None, contact: [u.clone(), n.clone()], separated: [u, n] }
 }
 
 /// Either state explains an answer if |R| is at most 10⁻⁶ of the scale, here 2 N and 2.000001 N.
@@ -31,7 +26,7 @@ fn a_missing_number_agrees_with_a_missing_number() {
     let [c, l] = ["c", "l"].map(|name| Tree::symbol(name));
     let problem = problem("own", Family::Contact, ["4", "1", "10", "0", "1"]);
     let exact = problem.solution();
-    let divided = always(&c / &l, Tree::from(6));
+    let divided = Program::without_branches(&[], [&c / &l, Tree::from(6)]);
     let agreement = |deflection: ReportedNumber| {
         let answer = Answer { deflection, ..Answer::new(Exact::zero(), exact.contact_force.clone()) };
         observed(&problem, answer, |answer| answer.agreement(&divided, None, &number(TOLERANCE)))
@@ -47,7 +42,8 @@ fn a_program_agrees_clearly_if_its_rounding_errors_are_small() {
     let exact = problem.solution();
     let agreement = |part: i32, off: &str| {
         let by = Tree::from(1) / Tree::from(part);
-        let program = always(Tree::symbol("H") - Tree::symbol("l") + by, Tree::from(6));
+        let program =
+            Program::without_branches(&[], [Tree::symbol("H") - Tree::symbol("l") + by, Tree::from(6)]);
         let u = &exact.deflection + Exact::from(1) / Exact::from(part) + number(off);
         let answer = Answer::new(u, exact.contact_force.clone());
         observed(&problem, answer, |answer| answer.agreement(&program, None, &number("1e-30")))
@@ -122,7 +118,7 @@ fn a_constant_is_that_of_the_most_accurate_answer() {
         let mut all = accurate.to_vec();
         all.insert(place, large.clone());
         let report = run(&all, |problem| {
-            let [u, n] = on_curve(problem, &number("1"));
+            let [u, n] = on_curve(&problem.system, &number("1"));
             let off = number(match problem.id.as_str() {
                 "large" => "0.001",
                 "200" => "1e-6",
@@ -167,7 +163,9 @@ fn decimals_are_cut_off_exactly() {
         .map(|(l, h)| problem(l, Family::Contact, ["100.37", "1", "10", l, h]));
     let hundred = number("100");
     let report = changed_in(&all, |problem, _, _| {
-        with_lengths(problem, |x| Exact::from((x * &hundred).as_rational().clone().trunc()) / &hundred)
+        with_lengths(&problem.system, |x| {
+            Exact::from((x * &hundred).as_rational().clone().trunc()) / &hundred
+        })
     });
     assert_eq!(names(&report), ["l and H are cut off after 2 decimals"]);
 }

@@ -343,13 +343,11 @@ fn the_allowed_rounding_error_is_stated() {
 #[test]
 fn rounding_errors_are_compared_with_the_sizes_of_a_system() {
     let [c, m, g, l, h] = [4, 1, -10, -1, 3].map(Exact::from);
-    let sizes = assessment::sizes(&SpringMass { c, m, g, l, h });
+    let sizes = scales::sizes(&SpringMass { c, m, g, l, h });
     assert_eq!(sizes, ["6.5", "42"].map(number));
     let one = Ball::from_rounded(1.0);
     let radius = one.radius().to_exact().unwrap();
-    assert!(
-        assessment::is_within(&one, &radius) && !assessment::is_within(&one, &(radius * number("0.999")))
-    );
+    assert!(scales::is_within(&one, &radius) && !scales::is_within(&one, &(radius * number("0.999"))));
 }
 
 /// A family without answers is not known to be right.
