@@ -40,7 +40,7 @@ fn diagnosed(report: &Value) -> [&str; 2] {
     [found[0]["name"].as_str().unwrap(), last.and_then(Value::as_str).unwrap_or_default()]
 }
 
-fn has_python() -> bool {
+pub fn has_python() -> bool {
     let has = Command::new("python3").arg("--version").output().is_ok();
     if !has {
         eprintln!("no python3: nothing in Python is tried");
