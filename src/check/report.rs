@@ -180,10 +180,8 @@ impl Report {
 
     /// Returns the results of each family.
     pub fn families(&self) -> Vec<FamilyResult<'_>> {
-        self.tallies
-            .iter()
-            .filter_map(|(family, tally)| FamilyResult::of(*family, tally, &self.results))
-            .collect()
+        let tallies = self.tallies.iter();
+        tallies.filter_map(|(family, tally)| FamilyResult::of(*family, tally, &self.results)).collect()
     }
 
     /// Returns the number of problems.
@@ -228,10 +226,9 @@ impl<'a> FamilyResult<'a> {
     fn of(family: Family, tally: &Tally, results: &'a [CaseResult]) -> Option<Self> {
         let (verdict, count) = tally.counts.last_key_value()?;
         // `max_by_key` returns the last of equal elements.
-        let bad = results
-            .iter()
-            .rev()
-            .filter(|result| result.problem.family == family && result.assessment.verdict == *verdict);
+        let is_bad =
+            |result: &&CaseResult| result.problem.family == family && result.assessment.verdict == *verdict;
+        let bad = results.iter().rev().filter(is_bad);
         let worst = bad.max_by_key(|result| result.assessment.error())?;
         let [worst_deflection, worst_force] = tally.largest_errors.clone();
         let right = tally.counts.range(..=AnswerVerdict::WithinTolerance).map(|(_, count)| count).sum();

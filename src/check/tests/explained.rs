@@ -182,17 +182,6 @@ fn right_answers_of_few_digits_show_nothing() {
     assert!(names(&report).is_empty(), "{:?}", names(&report));
 }
 
-/// All forces are from 7/3 N to eight times as much.
-#[test]
-fn a_limit_is_found_from_forces_that_are_near_it() {
-    let all = ["7", "6", "5"].map(|n| {
-        let h = number("11") - number(n);
-        problem(n, Family::Contact, ["1", "1", "10", "1", &h.to_string()])
-    });
-    let report = changed_in(&all, |_, u, n| [u, n.min(number("7/3"))]);
-    assert!(names(&report).contains(&"N is at most 2.33333 N"), "{:?}", names(&report));
-}
-
 /// Three errors are of a similar size although the scales, 0.15 m times the factors, differ by a thousand.
 #[test]
 fn similar_absolute_errors_of_different_systems_are_a_bound() {

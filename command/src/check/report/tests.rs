@@ -201,5 +201,6 @@ fn the_report_lists_what_was_tested() {
         Family::Stiff => Reply::Refused("no".into()),
         _ => Reply::Answered(Box::new(right(problem))),
     });
+    assert!(!refusing.holds());
     assert_says(&refusing, "Every system of stiff was refused, so its result is unknown. ");
 }
