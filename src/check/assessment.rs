@@ -77,22 +77,16 @@ fn value_used(
     used: &Option<ReportedNumber>,
     tolerance: &Exact,
 ) -> Result<Exact, String> {
-    let zero = Exact::zero();
-    match used {
-        None => Ok(asked.clone()),
-        // The signs are kept, since c, m and ε are positive.
-        Some(Some(used))
-            if (used - asked).abs() <= tolerance * asked.abs() && used.cmp(&zero) == asked.cmp(&zero) =>
-        {
-            Ok(used.clone())
-        }
-        Some(Some(used)) => {
-            Err(format!("it used {name} = {} instead of {}", format_short(used), format_short(asked)))
-        }
-        Some(None) => {
-            Err(format!("it used a value for {name} = {} that is not a number", format_short(asked)))
-        }
+    let Some(used) = used else { return Ok(asked.clone()) };
+    let Some(used) = used else {
+        return Err(format!("it used a value for {name} = {} that is not a number", format_short(asked)));
+    };
+    // The signs are kept, since c, m and ε are positive.
+    let has_same_sign = used.cmp(&Exact::zero()) == asked.cmp(&Exact::zero());
+    if has_same_sign && (used - asked).abs() <= tolerance * asked.abs() {
+        return Ok(used.clone());
     }
+    Err(format!("it used {name} = {} instead of {}", format_short(used), format_short(asked)))
 }
 
 /// Returns enclosures of the float results of the formulas for u and N. A ball larger than the system itself

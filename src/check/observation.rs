@@ -157,37 +157,31 @@ impl<'a> Observation<'a> {
     }
 
     /// Returns `true` if both numbers have the form of single precision, with the accuracy of a program that
-    /// computes in it.
-    pub fn is_single(&self) -> bool {
-        self.is_right_in_single()
-            && self.numbers().into_iter().all(|x| x.as_ref().is_some_and(is_single_number))
-    }
-
-    /// Each number has at most eight rounding errors relative to the sum of lengths or forces: those of its
+    /// computes in it: at most eight rounding errors relative to the sum of lengths or forces, those of its
     /// parameters (c, m and g, or l and H), and of up to four operations in any order.
-    fn is_right_in_single(&self) -> bool {
-        let penalty = self.problem.penalty.as_ref();
-        let force = penalty.map(|eps| eps * &self.sizes[0]).unwrap_or_else(Exact::zero) + &self.sizes[1];
-        let most = [&self.sizes[0] * Exact::power_of_two(-21), force * Exact::power_of_two(-21)];
-        (0..2)
-            .all(|i| self.absolute_error(i).is_some_and(|error| error <= most[i] && most[i] <= self.sizes[i]))
+    pub fn is_single(&self) -> bool {
+        let [lengths, forces] = &self.sizes;
+        let penalty = self.problem.penalty.as_ref().map_or(Exact::zero(), |eps| eps * lengths);
+        let most = [lengths.clone(), penalty + forces].map(|size| size * Exact::power_of_two(-21));
+        (0..2).all(|i| {
+            let has_form = self.numbers()[i].as_ref().is_some_and(is_single_number);
+            let error = self.absolute_error(i);
+            has_form && most[i] <= self.sizes[i] && error.is_some_and(|error| error <= most[i])
+        })
     }
 
     /// Returns `true` if a right program with these parameters gives this answer, within the tolerance or the rounding
     /// errors of f64.
     pub fn is_explained_by_parameters(&self, system: &SpringMass<Exact>, tolerance: &Exact) -> bool {
-        let is_solvable = [&system.c, &system.m].into_iter().all(|x| *x > Exact::zero());
-        is_solvable && {
-            let expected = right(system, self.problem.penalty.as_ref());
-            self.numbers().into_iter().zip(&expected).enumerate().all(|(i, (number, x))| {
-                number.as_ref().is_some_and(|number| {
-                    let error = (number - x).abs();
-                    error <= tolerance * &self.scales[i]
-                        || error <= *self.rounding(i)
-                        || rounds_alike(number, x)
-                })
-            })
+        if [&system.c, &system.m].into_iter().any(|x| *x <= Exact::zero()) {
+            return false;
         }
+        let expected = right(system, self.problem.penalty.as_ref());
+        (0..2).all(|i| {
+            let Some(number) = self.numbers()[i] else { return false };
+            let most = (tolerance * &self.scales[i]).max(self.rounding(i).clone());
+            (number - &expected[i]).abs() <= most || rounds_alike(number, &expected[i])
+        })
     }
 
     /// Returns a bound of the error of the right u or N in f64; 0 if it is larger than the system.
