@@ -41,6 +41,9 @@ static IN_SOME_ANSWERS: Candidates = [
     LazyLock::new(|| Reference::Penalty.in_some_answers()),
 ];
 
+/// One kind of search.
+type Find = fn(&Search, &[&Observation]) -> Vec<Explanation>;
+
 impl<'a> Search<'a> {
     pub fn new(reference: Reference, tolerance: &'a Exact) -> Self {
         Search { reference, tolerance, fit: fit(tolerance) }
@@ -51,9 +54,9 @@ impl<'a> Search<'a> {
         if !self.is_informative(answers) {
             return self.roundings(answers);
         }
-        let searches: [fn(&Self, &[&Observation]) -> Vec<Explanation>; 5] = [
+        let searches: [Find; 5] = [
             |search, answers| search.programs(&EDITS, answers),
-            Search::roundings,
+            |search, answers| search.roundings(answers),
             |search, answers| sums_or_factors(answers, &search.fit).into_iter().collect(),
             |search, answers| search.programs(&NUMBERS, answers),
             |search, answers| smoothed_law(answers, &search.fit).into_iter().collect(),

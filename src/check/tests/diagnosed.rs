@@ -164,7 +164,8 @@ fn threshold(report: &Report, quantity: ThresholdQuantity) -> Option<&Threshold>
 
 #[test]
 fn a_tolerance_of_the_program_is_located() {
-    let quantities: [(ThresholdQuantity, &str, fn(&SpringMass<Exact>) -> Exact); 4] = [
+    type Quantity = fn(&SpringMass<Exact>) -> Exact;
+    let quantities: [(ThresholdQuantity, &str, Quantity); 4] = [
         (ThresholdQuantity::Penetration, "1e-6", |s| system::reaction(s).abs() / &s.c),
         (ThresholdQuantity::Force, "1e-2", |s| system::reaction(s).abs()),
         (ThresholdQuantity::ForceByWeight, "1e-3", |s| system::reaction(s).abs() / system::weight(s).abs()),
@@ -410,7 +411,8 @@ fn a_lagging_force_is_distinguished() {
 /// Answers that resemble a mistake which they are not.
 #[test]
 fn nothing_else_is_named() {
-    let changes: [(&str, fn(&Problem, Exact, Exact) -> [Exact; 2]); 7] = [
+    type Change = fn(&Problem, Exact, Exact) -> [Exact; 2];
+    let changes: [(&str, Change); 7] = [
         ("one slight error", |problem, u, n| {
             [u * number(if problem.id == "contact-1" { "1.000005" } else { "1" }), n]
         }),
