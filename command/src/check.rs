@@ -8,7 +8,7 @@ mod report;
 use crate::args::{Number, parse_positive};
 use crate::cases::Selection;
 use crate::output::{self, Exit, Failure, formats};
-use program::Program;
+use program::{Program, end_with_signals};
 use spring_mass_contact::check::check;
 use std::time::Duration;
 
@@ -76,6 +76,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     for problem in &mut problems {
         problem.penalty = options.penalty.as_ref().map(|penalty| penalty.value.clone());
     }
+    end_with_signals().map_err(|error| format!("signals cannot be handled: {error}"))?;
     let report = output::with_progress("checking", |progress| {
         let mut program = Program::new(&options.program, options.timeout);
         let mut count = 0;

@@ -9,3 +9,5 @@ mod command;
 #[cfg(unix)]
 mod faults;
 mod processes;
+#[cfg(unix)]
+mod programs;

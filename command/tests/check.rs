@@ -2,7 +2,6 @@
 
 use crate::processes::{captured, command, root};
 use serde_json::Value;
-use spring_mass_contact::number::Exact;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -40,7 +39,7 @@ fn diagnosed(report: &Value) -> [&str; 2] {
     [found[0]["name"].as_str().unwrap(), last.and_then(Value::as_str).unwrap_or_default()]
 }
 
-fn has_python() -> bool {
+pub fn has_python() -> bool {
     let has = Command::new("python3").arg("--version").output().is_ok();
     if !has {
         eprintln!("no python3: nothing in Python is tried");
@@ -67,16 +66,6 @@ fn a_penalty_program_in_c_is_diagnosed() {
 }
 
 #[test]
-fn a_lagging_program_in_rust_is_diagnosed() {
-    let rustc = std::env::var("RUSTC").unwrap_or("rustc".to_string());
-    let (status, report) = report(&[&compiled(&rustc, "command/tests/adapters/lagging.rs")]);
-    assert_eq!(status, Some(1));
-    assert_eq!(diagnosed(&report), ["N is one step behind", "N_k = m g − c u_{k−1}"]);
-    // At the end of forty steps nobody sees it.
-    assert_eq!(report["summary"]["wrong"], 0);
-}
-
-#[test]
 fn the_adapter_to_start_from_is_right() {
     if !has_python() {
         return;
@@ -85,74 +74,29 @@ fn the_adapter_to_start_from_is_right() {
     assert_eq!((status, &report["summary"]["right"]), (Some(0), &report["cases"]), "{report:#}");
 }
 
-/// The command implements the protocol itself: each of its methods in every number system is correct.
+/// The command implements the protocol itself, in every number system.
 #[test]
 fn the_command_can_be_checked_by_itself() {
-    let batch = |options: &str| {
-        let program = format!("{} solve --batch {options}", env!("CARGO_BIN_EXE_contact"));
-        report(&program.split_whitespace().collect::<Vec<_>>())
-    };
-    for (options, diagnosis) in [
-        ("", None),
-        ("--scalar exact", None),
-        ("--scalar mpfr:53", None),
-        ("--scalar f32", Some("it computes in single precision")),
-        ("--bilateral", Some("the plane always acts")),
-        ("--method penalty --penalty 1e6", Some("it is the penalty method, with ε = 1e6 N/m")),
-        (
-            "--method penalty --penalty 1e6 --bilateral",
-            Some("it is the penalty method, and the plane also pulls, with ε = 1e6 N/m"),
-        ),
+    for (scalar, diagnosis) in [
+        ("--scalar=f64", None),
+        ("--scalar=exact", None),
+        ("--scalar=mpfr:53", None),
+        ("--scalar=f32", Some("it computes in single precision")),
     ] {
-        let (status, report) = batch(options);
-        match diagnosis {
-            None => {
-                assert_eq!((status, &report["summary"]["right"]), (Some(0), &report["cases"]), "{options}")
+        let (status, report) = report(&[env!("CARGO_BIN_EXE_contact"), "solve", "--batch", scalar]);
+        let is_right = report["summary"]["right"] == report["cases"];
+        assert_eq!(
+            (status, is_right),
+            (Some(i32::from(diagnosis.is_some())), diagnosis.is_none()),
+            "{scalar}"
+        );
+        if let Some(name) = diagnosis {
+            assert_eq!(diagnosed(&report)[0], name);
+            for row in report["families"].as_array().unwrap() {
+                assert_eq!(row["counterexample"].is_null(), row["verdict"] != "wrong", "{row:#}");
             }
-            Some(name) => assert_eq!((status, diagnosed(&report)[0]), (Some(1), name), "{options}"),
         }
     }
-}
-
-/// Each request contains ε, without which the program refuses to answer.
-#[test]
-fn the_penalty_method_can_be_checked_by_itself() {
-    let program = [env!("CARGO_BIN_EXE_contact"), "solve", "--batch", "--method", "penalty"];
-    let output = contact(&[&["check", "--penalty", "1e6", "--"], &program[..]].concat());
-    assert_eq!(output.status.code(), Some(0), "{output:?}");
-}
-
-/// Returns the exact value of a decimal.
-fn exact(number: &Value) -> Exact {
-    number.as_str().map_or_else(|| number.to_string(), String::from).parse().unwrap()
-}
-
-/// Where a bilateral plane is wrong the mass is separated: u = H − l, and the tensile force is a residual.
-#[test]
-fn the_report_contains_an_example_of_each_failing_family() {
-    let (_, report) =
-        report(&[env!("CARGO_BIN_EXE_contact"), "solve", "--batch", "--bilateral", "--scalar=exact"]);
-    let mut verdicts = Vec::new();
-    for row in report["families"].as_array().unwrap() {
-        let (verdict, example) = (row["verdict"].as_str().unwrap(), &row["counterexample"]);
-        verdicts.push(verdict);
-        assert_eq!(example.is_null(), verdict != "wrong", "{row:#}");
-        if verdict == "wrong" {
-            let (request, answer, kkt) = (&example["request"], &example["answer"], &example["kkt"]);
-            let gap = exact(&request["height"]) - exact(&request["free_length"]);
-            assert_eq!(
-                (exact(&answer["deflection"]), exact(&kkt["primal"])),
-                (gap, Exact::from(0)),
-                "{row:#}"
-            );
-            assert_eq!(exact(&kkt["dual"]), -exact(&answer["contact_force"]), "{row:#}");
-            assert_eq!((&example["exact"]["state"], &answer["status"]), (&"separated".into(), &Value::Null));
-        }
-    }
-    assert!(
-        ["right", "within_tolerance", "wrong"].iter().all(|verdict| verdicts.contains(verdict)),
-        "{report:#}"
-    );
 }
 
 /// The cases of `cases` have the solutions of `solve` and are those of `check`.
@@ -198,11 +142,6 @@ fn fingerprint(bytes: &[u8]) -> String {
 /// The table of solvers in the book refers to the current systems.
 #[test]
 fn the_table_of_solvers_is_of_these_systems() {
-    // From the definition of the hash.
-    assert_eq!(
-        [&b""[..], b"a", b"foobar"].map(fingerprint),
-        ["cbf29ce484222325", "af63dc4c8601ec8c", "85944171f73967e8"]
-    );
     let page = std::fs::read_to_string(source("book/src/solvers.md")).unwrap();
     let (_, head) = page.split_once("| program |").unwrap();
     let families = head.lines().next().unwrap().split('|').map(str::trim).filter(|name| !name.is_empty());

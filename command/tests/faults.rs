@@ -8,27 +8,17 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::thread;
 
-/// Every subcommand, and every way in which it prints.
-const LINES: [&str; 24] = [
+/// Every subcommand, and every way to print.
+const LINES: [&str; 14] = [
     "verify 1.1 --cases 1",
-    "verify 1.1 --cases 1 --format json",
-    "prove 1.2",
     "prove 1.2 --format json",
     "solve",
     "solve --format json",
-    "solve --format csv",
-    "solve --method augmented --trace",
     "solve --method augmented --trace --format csv",
     "advise --tolerance 1e-9",
-    "advise --tolerance 1e-9 --format json",
     "sweep --penalty 1..1e9",
-    "sweep --penalty 1..1e9 --format json",
-    "sweep --penalty 1..1e9 --format csv",
-    "cases",
     "cases --format json",
     "check --cases 1 --family contact -- true",
-    "check --cases 1 --family contact --format json -- true",
-    "check --cases 1 --family contact --format markdown -- true",
     "equations",
     "completions bash",
     "help",
@@ -47,20 +37,6 @@ fn refused(output: &Output, begins: &str, what: &str) {
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!((output.status.code(), stderr.lines().count()), (Some(2), 1), "{what}: {stderr}");
     assert!(stderr.starts_with(&format!("error: {begins}")), "{what}: {stderr}");
-}
-
-/// The list above contains all subcommands.
-#[test]
-fn no_subcommand_is_left_out() {
-    let help = captured(&mut words("help"));
-    let help = String::from_utf8(help.stdout).expect("UTF-8");
-    let (_, list) = help.split_once("Commands:\n").expect("a list");
-    let names = list.lines().map_while(|line| line.strip_prefix("  ")?.split(' ').next());
-    let names: Vec<_> = names.filter(|name| !name.is_empty()).collect();
-    assert!(names.len() > 9, "{names:?}");
-    for name in names {
-        assert!(LINES.iter().any(|line| line.split(' ').next() == Some(name)), "{name}");
-    }
 }
 
 #[cfg(target_os = "linux")]
@@ -173,32 +149,17 @@ fn a_folder_in_the_place_of_a_file_is_refused() {
     assert_eq!(names(&own), files);
 }
 
-/// On a disk that becomes full, previous files are unchanged.
-#[cfg(target_os = "linux")]
-#[test]
-#[ignore = "requires user namespaces"]
-fn a_disk_that_fills_leaves_no_part_of_a_file() {
-    let own = folder("small");
-    let (contact, place) = (env!("CARGO_BIN_EXE_contact"), own.display());
-    let script = format!(
-        "mount -t tmpfs -o size=128k small '{place}' || exit 77
-         echo kept > '{place}'/Contact_01.v
-         '{contact}' prove --coq '{place}'; status=$?
-         ls '{place}'; cat '{place}'/*; exit $status"
-    );
-    let output = captured(Command::new("unshare").args(["--map-root-user", "--mount", "sh", "-c", &script]));
-    refused(&output, REFUSED, "a small disk");
-    assert!(String::from_utf8_lossy(&output.stderr).contains("No space left on device"));
-    assert_eq!(String::from_utf8_lossy(&output.stdout), "Contact_01.v\nkept\n");
-}
-
-/// A limit of the file size has the same effect and needs no privileges.
+/// A limit of the file size has the effect of a full disk: previous files are unchanged.
 #[test]
 fn a_limit_of_size_leaves_no_part_of_a_file() {
     let own = folder("limit");
+    fs::write(own.join("Contact_01.v"), "kept").expect("a file");
     let (contact, place) = (env!("CARGO_BIN_EXE_contact"), own.display());
     // Where the signal is not ignored it ends whoever writes, with no time to tidy up.
     let script = format!("trap '' XFSZ; ulimit -f 8; exec '{contact}' prove --coq '{place}'");
     refused(&captured(Command::new("sh").args(["-c", &script])), REFUSED, "a limit");
-    assert_eq!(names(&own), [""; 0]);
+    assert_eq!(
+        (names(&own), fs::read(own.join("Contact_01.v")).unwrap()),
+        (vec!["Contact_01.v".to_string()], b"kept".to_vec())
+    );
 }

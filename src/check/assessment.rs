@@ -4,14 +4,14 @@
 //! |c (H − l)|. Residuals alone would not suffice: a solver can be in equilibrium to twelve digits with forty
 //! times the force.
 
-use super::problems::decimal;
-use super::program::right;
-use super::{Answer, Problem, Reply, ReportedNumber};
+use super::answer::{Answer, Reply, ReportedNumber};
+use super::problems::{Problem, right};
+use super::scales::{ball, balls, fit, format_short, is_within, rounds_alike, scales, sizes};
 use crate::chapter::contact::{self, Kkt};
-use crate::chapter::{SpringMass, augmented, structure, system};
-use crate::number::{Ball, Exact, PositivePart, ToExact};
-use crate::solver::{Method, Solution, State, solve};
-use num_traits::{One, Zero};
+use crate::chapter::{SpringMass, augmented};
+use crate::number::{Ball, Exact, PositivePart};
+use crate::solver::{Solution, State};
+use num_traits::Zero;
 use strum::Display;
 
 /// Verdict on an answer, in increasing severity.
@@ -59,18 +59,6 @@ pub struct Assessment {
 }
 
 impl Problem {
-    /// Returns the exact solution of (1.6), or of (1.13) and (1.12) with unilateral contact.
-    ///
-    /// # Panics
-    /// Panics if c, m or ε is not positive.
-    pub fn solution(&self) -> Solution<Exact> {
-        let method = match &self.penalty {
-            None => Method::Lagrange,
-            Some(penalty) => Method::Penalty { penalty: penalty.clone() },
-        };
-        solve(&self.system, &method).expect("a system with c, m and ε > 0")
-    }
-
     /// Returns the problem with the parameters that the solver used, or the parameter that differs.
     fn as_used(&self, answer: &Answer, tolerance: &Exact) -> Result<Problem, String> {
         let asked = SpringMass::KEYS.zip(self.system.as_ref());
@@ -89,41 +77,16 @@ fn value_used(
     used: &Option<ReportedNumber>,
     tolerance: &Exact,
 ) -> Result<Exact, String> {
-    let zero = Exact::zero();
-    match used {
-        None => Ok(asked.clone()),
-        // The signs are kept, since c, m and ε are positive.
-        Some(Some(used))
-            if (used - asked).abs() <= tolerance * asked.abs() && used.cmp(&zero) == asked.cmp(&zero) =>
-        {
-            Ok(used.clone())
-        }
-        Some(Some(used)) => {
-            Err(format!("it used {name} = {} instead of {}", format_short(used), format_short(asked)))
-        }
-        Some(None) => {
-            Err(format!("it used a value for {name} = {} that is not a number", format_short(asked)))
-        }
+    let Some(used) = used else { return Ok(asked.clone()) };
+    let Some(used) = used else {
+        return Err(format!("it used a value for {name} = {} that is not a number", format_short(asked)));
+    };
+    // The signs are kept, since c, m and ε are positive.
+    let has_same_sign = used.cmp(&Exact::zero()) == asked.cmp(&Exact::zero());
+    if has_same_sign && (used - asked).abs() <= tolerance * asked.abs() {
+        return Ok(used.clone());
     }
-}
-
-/// Formats six digits.
-pub(super) fn format_short(x: &Exact) -> String {
-    x.decimal(6, rug::float::Round::Nearest)
-}
-
-/// Returns the scales of the errors of u, in m, and N, in N; one SI unit if the scale is zero.
-pub(super) fn scales(system: &SpringMass<Exact>) -> [Exact; 2] {
-    let gap = system::gap(system);
-    let free = structure::deflection(system);
-    let weight = system::weight(system);
-    let scales = [gap.abs() + free.abs(), weight.abs() + (&system.c * gap).abs()];
-    scales.map(|scale| if scale.is_zero() { Exact::one() } else { scale })
-}
-
-/// Returns the ball around the float of a number, if it is in range.
-pub(super) fn ball(x: &Exact) -> Option<Ball<f64>> {
-    Ball::enclosing(&0f64, x).ok()
+    Err(format!("it used {name} = {} instead of {}", format_short(used), format_short(asked)))
 }
 
 /// Returns enclosures of the float results of the formulas for u and N. A ball larger than the system itself
@@ -134,31 +97,6 @@ pub(super) fn rounded(problem: &Problem) -> [Option<Ball<f64>>; 2] {
     let Some(system) = balls(&problem.system).filter(|_| is_in_range) else { return [None, None] };
     let ([u, n], [length, force]) = (right(&system, eps.as_ref()), sizes(&problem.system));
     [(u, length), (n, force)].map(|(ball, size)| Some(ball).filter(|ball| is_within(ball, &size)))
-}
-
-/// Returns a system in balls around floats, if it is in range.
-pub(super) fn balls(system: &SpringMass<Exact>) -> Option<SpringMass<Ball<f64>>> {
-    system.try_map(|x| ball(x).ok_or(())).ok()
-}
-
-/// Returns the sum of the lengths of a system, in m, and that of its forces, in N.
-pub(super) fn sizes(system: &SpringMass<Exact>) -> [Exact; 2] {
-    let [_, weight] = scales(system);
-    let lengths = system.l.abs() + system.h.abs();
-    [&lengths + structure::deflection(system).abs(), weight + &system.c * lengths]
-}
-
-/// Returns `true` if both numbers are equal or round to the same f64. This accepts the exact solution rounded
-/// once, which a ball with a radius of less than half an ulp may not contain.
-pub(super) fn rounds_alike(x: &Exact, y: &Exact) -> bool {
-    x == y || matches!((x.to_f64(), y.to_f64()), (Ok(x), Ok(y)) if x == y)
-}
-
-/// Returns the largest distance of an answer from a value that explains it, relative to the scale of the
-/// system and of the value: the tolerance, but at least 10⁻⁶, so that the tolerance does not change which
-/// mistakes are distinguished.
-pub(super) fn fit(tolerance: &Exact) -> Exact {
-    decimal(1, -6).max(tolerance.clone())
 }
 
 impl Assessment {
@@ -253,11 +191,6 @@ impl Comparison {
     }
 }
 
-/// Returns `true` if the radius of a ball is at most a size.
-pub(super) fn is_within(ball: &Ball<f64>, size: &Exact) -> bool {
-    ball.radius().to_exact().is_ok_and(|radius| radius <= *size)
-}
-
 /// Describes a penetration that differs from that of the deflection.
 fn penetrates_otherwise(
     problem: &Problem,
@@ -323,4 +256,45 @@ fn lags(system: &SpringMass<Exact>, steps: &[[ReportedNumber; 2]], tolerance: &E
         }
     }
     (is_behind.len() >= 2).then(|| is_behind.into_iter().all(|next| next))
+}
+
+/// A problem with its reply and assessment.
+#[derive(Clone, Debug)]
+pub struct CaseResult {
+    /// The number of requests before it.
+    pub number: usize,
+    /// The problem.
+    pub problem: Problem,
+    /// The reply, without its steps.
+    pub reply: Reply,
+    /// The assessment of the reply.
+    pub assessment: Assessment,
+}
+
+impl CaseResult {
+    pub(super) fn of(number: usize, problem: &Problem, mut reply: Reply, tolerance: &Exact) -> Self {
+        let assessment = Assessment::of(problem, &reply, tolerance);
+        // The steps have been assessed, and may be numerous.
+        if let Reply::Answered(answer) = &mut reply {
+            answer.steps = Vec::new();
+        }
+        CaseResult { number, problem: problem.clone(), reply, assessment }
+    }
+
+    /// Returns `true` if the solver did not answer.
+    pub(super) fn is_silent(&self) -> bool {
+        matches!(self.reply, Reply::InvalidResponse(_) | Reply::Crashed(_) | Reply::TimedOut(_))
+    }
+
+    /// Returns `true` if another reply to the same problem is no answer, or one that differs by more than the
+    /// tolerance.
+    pub(super) fn differs(&self, other: &Reply, tolerance: &Exact) -> bool {
+        let (Reply::Answered(first), Reply::Answered(again)) = (&self.reply, other) else { return true };
+        let scales = scales(&self.problem.system);
+        let numbers = [[&first.deflection, &again.deflection], [&first.contact_force, &again.contact_force]];
+        numbers.iter().zip(&scales).any(|(both, scale)| match both {
+            [Some(a), Some(b)] => (a - b).abs() > tolerance * scale,
+            [a, b] => a != b,
+        })
+    }
 }

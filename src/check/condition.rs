@@ -70,11 +70,6 @@ impl ThresholdQuantity {
         self.symbol_and_unit().1
     }
 
-    /// Returns its values for all systems; `None` if one has no value.
-    fn values(self, all: &[&Observation]) -> Option<Vec<Exact>> {
-        all.iter().map(|answer| self.value(answer)).collect()
-    }
-
     /// Returns its value for a system; `None` if the reference is zero.
     fn value(self, answer: &Observation) -> Option<Exact> {
         let system = &answer.problem.system;
@@ -147,12 +142,13 @@ impl FailureCondition {
         if is_significant(wrong, right) && wrong.iter().all(is_grazing) {
             return vec![FailureCondition { state: Some(State::Grazing), threshold: None }];
         }
+        let of_state = |state, found: Vec<Threshold>| {
+            let found = found.into_iter();
+            found.map(|found| FailureCondition { state, threshold: Some(found) }).collect()
+        };
         let found = Threshold::separating(wrong, right);
         if !found.is_empty() {
-            return found
-                .into_iter()
-                .map(|found| FailureCondition { state: None, threshold: Some(found) })
-                .collect();
+            return of_state(None, found);
         }
         // The state may be any one close to grazing.
         let mut states = wrong.iter().filter_map(|answer| answer.state);
@@ -164,8 +160,7 @@ impl FailureCondition {
         if alike.is_empty() && is_significant(wrong, right) {
             return vec![FailureCondition { state, threshold: None }];
         }
-        let found = Threshold::separating(wrong, &alike).into_iter();
-        found.map(|found| FailureCondition { state, threshold: Some(found) }).collect()
+        of_state(state, Threshold::separating(wrong, &alike))
     }
 }
 
@@ -187,20 +182,22 @@ impl Threshold {
         if !is_significant(wrong, right) || is_continuous(wrong, right) {
             return Vec::new();
         }
-        let found =
-            ThresholdQuantity::ALL.iter().filter_map(|quantity| Threshold::of(*quantity, wrong, right));
-        let mut found: Vec<_> = found.collect();
+        let all = ThresholdQuantity::ALL.iter();
+        let mut found: Vec<_> = all.filter_map(|quantity| Threshold::of(*quantity, wrong, right)).collect();
         found.sort_by_key(|found| std::cmp::Reverse(found.gap()));
         found
     }
 
     fn of(quantity: ThresholdQuantity, wrong: &[&Observation], right: &[&Observation]) -> Option<Self> {
-        let (bad, good) = (quantity.values(wrong)?, quantity.values(right)?);
-        let below = (bad.iter().max()?, good.iter().min()?);
-        let above = (bad.iter().min()?, good.iter().max()?);
-        let (wrong, right) = if below.0 < below.1 { below } else { above };
-        let separates = below.0 < below.1 || above.0 > above.1;
-        separates.then(|| Threshold { quantity, wrong: wrong.clone(), right: right.clone() })
+        let range = |of: &[&Observation]| {
+            let values = of.iter().map(|answer| quantity.value(answer)).collect::<Option<Vec<_>>>()?;
+            Some((values.iter().min()?.clone(), values.iter().max()?.clone()))
+        };
+        let ((bad_low, bad_high), (good_low, good_high)) = (range(wrong)?, range(right)?);
+        if bad_high < good_low {
+            return Some(Threshold { quantity, wrong: bad_high, right: good_low });
+        }
+        (bad_low > good_high).then_some(Threshold { quantity, wrong: bad_low, right: good_high })
     }
 
     /// Returns `true` if the answers are wrong below the right ones.

@@ -1,14 +1,14 @@
 //! Contact laws without a corner: N (N − R) is a positive constant.
 
-use super::assessment::format_short;
-use super::diagnosis::INFORMATIVE;
-use super::observation::Observation;
+use super::explanation::Explanation;
+use super::observation::{INFORMATIVE, Observation};
+use super::scales::format_short;
 use crate::chapter::{SpringMass, contact, system};
 use crate::number::{Exact, PositivePart};
 use num_traits::{One, Zero};
 
-/// Describes the law, and its constant, that explain all answers.
-pub(super) fn smoothed_law(answers: &[&Observation], fit: &Exact) -> Option<(&'static str, String)> {
+/// Returns the law that explains all answers, with its constant.
+pub(super) fn smoothed_law(answers: &[&Observation], fit: &Exact) -> Option<Explanation> {
     let (name, k, unit) = match constant(answers, fit, |_| Exact::one()) {
         Some(k) => ("a smoothed corner, N = (R + √(R² + 4 k))/2", k, "N²"),
         None => {
@@ -16,7 +16,7 @@ pub(super) fn smoothed_law(answers: &[&Observation], fit: &Exact) -> Option<(&'s
             ("a barrier, N = k/(H − l − u)", k, "J")
         }
     };
-    Some((name, format!("k = {} {unit}", format_short(&k))))
+    Some(Explanation::new(name, vec![format!("k = {} {unit}", format_short(&k))]))
 }
 
 /// Returns N (N − R)/unit if it is the same positive number in all answers, and clear in several.

@@ -1,14 +1,19 @@
 //! Answers to problems, and mistakes that explain them.
 
-use super::assessment::{ball, balls, fit, is_within, rounded, rounds_alike, scales, sizes};
-use super::problems::short;
-use super::program::{Constants, Results, right, value};
-use super::{Answer, AnswerVerdict, Assessment, CaseResult, Problem, Reply, ReportedNumber};
+use super::answer::{Answer, Reply, ReportedNumber};
+use super::assessment::{AnswerVerdict, Assessment, CaseResult, rounded};
+use super::problems::{Problem, right};
+use super::program::{Known, Program};
+use super::scales::{ball, balls, fit, is_within, rounds_alike, scales, short, sizes};
 use crate::chapter::{SpringMass, system};
-use crate::number::{Ball, Exact, PositivePart, ToExact, Tree};
+use crate::number::{Ball, Exact, PositivePart, ToExact};
 use crate::solver::State;
 use num_traits::Zero;
 use std::cell::OnceCell;
+
+/// Number of answers required to distinguish a mistake from the right formulas: one or two could differ by
+/// chance, and one determines a number.
+pub(super) const INFORMATIVE: usize = 3;
 
 /// An answer with its problem.
 pub(super) struct Observation<'a> {
@@ -100,84 +105,83 @@ impl<'a> Observation<'a> {
         [&self.answer.deflection, &self.answer.contact_force]
     }
 
-    /// Returns whether a program with these results and constants gives this answer; not if the results contain an
-    /// unknown penalty.
-    pub fn agreement(&self, results: &Results, k: Option<&Exact>, tolerance: &Exact) -> Agreement {
+    /// Returns whether a program with a number k gives this answer; not if its results contain an unknown penalty.
+    pub fn agreement(&self, program: &Program, k: Option<&Exact>, tolerance: &Exact) -> Agreement {
         let penalty = self.reported_penalty();
-        let constants = Constants { penalty: penalty.as_ref(), factor: k };
-        let touches = results.reaction(&self.problem.system, &constants) > Exact::zero();
-        let of_state = |state| {
-            let [u, n] = results.of_state(state);
-            match self.agreement_of(0, u, &constants, tolerance) {
+        let known = Known::new(&self.problem.system, penalty.as_ref(), k);
+        let (eps, k) = (penalty.as_ref().and_then(ball), k.and_then(ball));
+        let known_in_balls = |system| Known::new(system, eps.as_ref(), k.as_ref());
+        let in_balls = self.balls.as_ref().map(known_in_balls);
+        let in_state = |touches| {
+            let values = program.values(&known, touches);
+            let balls = || in_balls.as_ref().map(|known| program.values(known, touches));
+            let agreement =
+                |i: usize| self.agreement_with(i, values[i].as_ref(), || balls()?[i].clone(), tolerance);
+            match agreement(0) {
                 Agreement::No => Agreement::No,
-                u => u.min(self.agreement_of(1, n, &constants, tolerance)),
+                u => u.min(agreement(1)),
             }
         };
-        if self.state.is_none() { of_state(true).max(of_state(false)) } else { of_state(touches) }
+        match self.state {
+            None => in_state(true).max(in_state(false)),
+            Some(_) => in_state(program.touches(&known)),
+        }
     }
 
-    /// Returns whether a formula gives u or N within the tolerance, or within its rounding errors in f64.
-    fn agreement_of(
+    /// Returns whether u or N is a value within the tolerance, or within its rounding errors in f64.
+    fn agreement_with(
         &self,
         i: usize,
-        formula: &Tree,
-        constants: &Constants<Exact>,
+        value: Option<&Exact>,
+        ball: impl Fn() -> Option<Ball<f64>>,
         tolerance: &Exact,
     ) -> Agreement {
-        let number = match (self.numbers()[i], value(formula, &self.problem.system, constants)) {
-            (Some(number), Some(x)) if (number - &x).abs() <= tolerance * (&self.scales[i] + x.abs()) => {
-                // A value that is small relative to its system agrees with any other small number.
-                let is_same = x.is_zero() || (number - &x).abs() * Exact::from(100) <= x.abs();
-                return if is_same { Agreement::Clear } else { Agreement::Possible };
-            }
-            (Some(number), Some(_)) => number,
+        let (number, x) = match (self.numbers()[i], value) {
+            (Some(number), Some(x)) => (number, x),
             // Any program without a number gives the same answer.
             (None, None) => return Agreement::Possible,
             _ => return Agreement::No,
         };
-        let (eps, k) = (constants.penalty.and_then(ball), constants.factor.and_then(ball));
-        let in_balls = Constants { penalty: eps.as_ref(), factor: k.as_ref() };
-        let ball = self.balls.as_ref().and_then(|system| value(formula, system, &in_balls));
-        let Some(ball) = ball.filter(|ball| ball.is_finite() && ball.contains(number)) else {
-            return Agreement::No;
+        let error = (number - x).abs();
+        let is_clear = if error <= tolerance * (&self.scales[i] + x.abs()) {
+            // A value that is small relative to its system agrees with any other small number.
+            x.is_zero() || error * Exact::from(100) <= x.abs()
+        } else {
+            let Some(ball) = ball().filter(|ball| ball.is_finite() && ball.contains(number)) else {
+                return Agreement::No;
+            };
+            // Rounding errors that are not small relative to the error and the number would explain others as well.
+            is_within(&ball, &((number - self.exact(i)).abs().min(number.abs()) / Exact::from(100)))
         };
-        // Rounding errors that are not small relative to the error and the number would explain others as well.
-        let error = (number - self.exact(i)).abs().min(number.abs());
-        if is_within(&ball, &(error / Exact::from(100))) { Agreement::Clear } else { Agreement::Possible }
+        if is_clear { Agreement::Clear } else { Agreement::Possible }
     }
 
     /// Returns `true` if both numbers have the form of single precision, with the accuracy of a program that
-    /// computes in it.
-    pub fn is_single(&self) -> bool {
-        self.is_right_in_single()
-            && self.numbers().into_iter().all(|x| x.as_ref().is_some_and(is_single_number))
-    }
-
-    /// Each number has at most eight rounding errors relative to the sum of lengths or forces: those of its
+    /// computes in it: at most eight rounding errors relative to the sum of lengths or forces, those of its
     /// parameters (c, m and g, or l and H), and of up to four operations in any order.
-    fn is_right_in_single(&self) -> bool {
-        let penalty = self.problem.penalty.as_ref();
-        let force = penalty.map(|eps| eps * &self.sizes[0]).unwrap_or_else(Exact::zero) + &self.sizes[1];
-        let most = [&self.sizes[0] * Exact::power_of_two(-21), force * Exact::power_of_two(-21)];
-        (0..2)
-            .all(|i| self.absolute_error(i).is_some_and(|error| error <= most[i] && most[i] <= self.sizes[i]))
+    pub fn is_single(&self) -> bool {
+        let [lengths, forces] = &self.sizes;
+        let penalty = self.problem.penalty.as_ref().map_or(Exact::zero(), |eps| eps * lengths);
+        let most = [lengths.clone(), penalty + forces].map(|size| size * Exact::power_of_two(-21));
+        (0..2).all(|i| {
+            let has_form = self.numbers()[i].as_ref().is_some_and(is_single_number);
+            let error = self.absolute_error(i);
+            has_form && most[i] <= self.sizes[i] && error.is_some_and(|error| error <= most[i])
+        })
     }
 
     /// Returns `true` if a right program with these parameters gives this answer, within the tolerance or the rounding
     /// errors of f64.
     pub fn is_explained_by_parameters(&self, system: &SpringMass<Exact>, tolerance: &Exact) -> bool {
-        let is_solvable = [&system.c, &system.m].into_iter().all(|x| *x > Exact::zero());
-        is_solvable && {
-            let expected = right(system, self.problem.penalty.as_ref());
-            self.numbers().into_iter().zip(&expected).enumerate().all(|(i, (number, x))| {
-                number.as_ref().is_some_and(|number| {
-                    let error = (number - x).abs();
-                    error <= tolerance * &self.scales[i]
-                        || error <= *self.rounding(i)
-                        || rounds_alike(number, x)
-                })
-            })
+        if [&system.c, &system.m].into_iter().any(|x| *x <= Exact::zero()) {
+            return false;
         }
+        let expected = right(system, self.problem.penalty.as_ref());
+        (0..2).all(|i| {
+            let Some(number) = self.numbers()[i] else { return false };
+            let most = (tolerance * &self.scales[i]).max(self.rounding(i).clone());
+            (number - &expected[i]).abs() <= most || rounds_alike(number, &expected[i])
+        })
     }
 
     /// Returns a bound of the error of the right u or N in f64; 0 if it is larger than the system.

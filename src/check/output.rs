@@ -1,9 +1,8 @@
 //! Deviations of all u, or of all N, from the right ones.
 
-use super::assessment::format_short;
-use super::diagnosis::INFORMATIVE;
-use super::observation::{Observation, has_digits};
-use super::problems::decimal;
+use super::explanation::Explanation;
+use super::observation::{INFORMATIVE, Observation, has_digits};
+use super::scales::{decimal, format_short};
 use crate::chapter::contact;
 use crate::number::{Exact, PositivePart};
 use num_traits::{One, Zero};
@@ -16,7 +15,7 @@ const FEW_DECIMALS: usize = 15;
 
 /// The deviation of all u, or of all N, from the right ones.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Deviation {
+enum Deviation {
     None,
     Sum(Exact),
     Factor(Exact),
@@ -26,98 +25,83 @@ pub(super) enum Deviation {
     Digits(usize),
 }
 
+/// u or N of an answer.
+struct Number<'a> {
+    number: &'a Exact,
+    exact: &'a Exact,
+    /// Its scale, and a bound of the rounding errors of its formula.
+    scale: &'a Exact,
+    rounding: &'a Exact,
+}
+
 /// u or N of all answers.
-pub(super) struct Output<'a> {
-    /// 0 for u, 1 for N.
-    index: usize,
-    numbers: Vec<(&'a Observation<'a>, &'a Exact)>,
+struct Output<'a> {
+    numbers: Vec<Number<'a>>,
     /// Largest distance from the value that explains a number, relative to the scale of its system.
     fit: &'a Exact,
 }
 
+/// A search for the deviation of numbers.
+type Find<'a> = fn(&Output<'a>) -> Option<Deviation>;
+
 impl<'a> Output<'a> {
     /// Returns u (0) or N (1) of the answers; `None` if one is missing.
-    fn of(index: usize, answers: &[&'a Observation<'a>], fit: &'a Exact) -> Option<Self> {
-        let numbers = answers.iter().map(|answer| Some((*answer, answer.numbers()[index].as_ref()?)));
-        Some(Output { index, numbers: numbers.collect::<Option<_>>()?, fit })
+    fn of(i: usize, answers: &[&'a Observation<'a>], fit: &'a Exact) -> Option<Self> {
+        let numbers = answers.iter().map(|answer| {
+            let number = answer.numbers()[i].as_ref()?;
+            let (exact, scale) = (answer.exact(i), &answer.scales[i]);
+            Some(Number { number, exact, scale, rounding: answer.rounding(i) })
+        });
+        Some(Output { numbers: numbers.collect::<Option<_>>()?, fit })
     }
 
-    /// Returns the deviation that a search finds.
-    fn deviation(&self, find: fn(&Self) -> Option<Deviation>) -> Option<Deviation> {
-        if self.has(&Deviation::None) { Some(Deviation::None) } else { find(self) }
+    /// Returns the first deviation of all numbers that the searches find.
+    fn deviation(&self, searches: &[Find<'a>]) -> Option<Deviation> {
+        let found = searches.iter().filter_map(|find| find(self));
+        [Deviation::None].into_iter().chain(found).find(|deviation| self.has(deviation))
     }
 
     /// Returns `true` if all numbers have a deviation, within the tolerance, the rounding errors of the formula, or
     /// that of the number itself.
     fn has(&self, deviation: &Deviation) -> bool {
-        self.numbers.iter().all(|(answer, number)| {
-            let (expected, unit, factor) = deviation.expected(self.exact(answer), number);
-            let tolerance = self.fit * self.scale(answer);
-            let rounding = factor * tolerance.max(answer.rounding(self.index).clone());
+        self.numbers.iter().all(|Number { number, exact, scale, rounding }| {
+            let (expected, unit, factor) = deviation.expected(exact, number);
+            let rounding = factor * (self.fit * *scale).max((*rounding).clone());
             (*number - expected).abs() <= unit + rounding.max(number.abs() * Exact::power_of_two(-52))
         })
     }
 
-    fn deviates_by(&self, deviation: Deviation) -> Option<Deviation> {
-        self.has(&deviation).then_some(deviation)
-    }
-
-    /// Returns the exact number of an answer.
-    fn exact(&self, answer: &Observation<'a>) -> &'a Exact {
-        answer.exact(self.index)
-    }
-
-    fn scale<'b>(&self, answer: &'b Observation) -> &'b Exact {
-        &answer.scales[self.index]
-    }
-
     /// Returns `true` if a size is clear relative to the scales of several answers.
-    fn is_clear(&self, size: impl Fn(&Observation<'a>) -> Exact) -> bool {
-        let mut clear = 0;
-        for (answer, _) in &self.numbers {
-            clear += usize::from(size(answer) > Exact::from(100) * self.fit * self.scale(answer));
-        }
-        clear >= INFORMATIVE
-    }
-
-    /// Returns the sum or the factor that explains the numbers.
-    pub fn sum_or_factor(&self) -> Option<Deviation> {
-        self.sum().or_else(|| self.factor())
+    fn is_clear(&self, size: impl Fn(&Number) -> Exact) -> bool {
+        let hundred = Exact::from(100) * self.fit;
+        let clear = self.numbers.iter().filter(|number| size(number) > &hundred * number.scale);
+        clear.take(INFORMATIVE).count() == INFORMATIVE
     }
 
     fn sum(&self) -> Option<Deviation> {
         // It is most accurate in the smallest system.
-        let (answer, number) = self.numbers.iter().min_by_key(|(answer, _)| self.scale(answer))?;
-        let sum = *number - self.exact(answer);
-        if self.is_clear(|_| sum.abs()) { self.deviates_by(Deviation::Sum(sum)) } else { None }
+        let smallest = self.numbers.iter().min_by_key(|number| number.scale)?;
+        let sum = smallest.number - smallest.exact;
+        self.is_clear(|_| sum.abs()).then(|| Deviation::Sum(sum.clone()))
     }
 
     fn factor(&self) -> Option<Deviation> {
-        let numbers = self.numbers.iter();
-        let (answer, number) =
-            numbers.max_by_key(|(answer, _)| self.exact(answer).abs() / self.scale(answer))?;
-        if !self.is_clear(|answer| self.exact(answer).abs()) {
-            return None;
-        }
-        self.deviates_by(Deviation::Factor(*number / self.exact(answer)))
+        let largest = self.numbers.iter().max_by_key(|number| number.exact.abs() / number.scale)?;
+        let is_clear = self.is_clear(|number| number.exact.abs());
+        is_clear.then(|| Deviation::Factor(largest.number / largest.exact))
     }
 
-    /// Returns the number of decimals or digits of right numbers.
-    pub fn few(&self) -> Option<Deviation> {
-        self.few_decimals().or_else(|| self.few_digits())
-    }
-
-    pub fn few_decimals(&self) -> Option<Deviation> {
+    fn few_decimals(&self) -> Option<Deviation> {
         let n = (0..=FEW_DECIMALS).find(|n| {
             let unit = decimal(1, *n as i32);
-            self.numbers.iter().all(|(_, x)| (*x * &unit).as_rational().is_integer())
+            self.numbers.iter().all(|x| (x.number * &unit).as_rational().is_integer())
         });
-        self.deviates_by(Deviation::Decimals(n?))
+        n.map(Deviation::Decimals)
     }
 
-    pub fn few_digits(&self) -> Option<Deviation> {
-        let n = (1..=FEW).find(|n| self.numbers.iter().all(|(_, x)| has_digits(x, *n)));
-        self.deviates_by(Deviation::Digits(n?))
+    fn few_digits(&self) -> Option<Deviation> {
+        let n = (1..=FEW).find(|n| self.numbers.iter().all(|x| has_digits(x.number, *n)));
+        n.map(Deviation::Digits)
     }
 }
 
@@ -136,52 +120,60 @@ impl Deviation {
         }
     }
 
-    /// Returns what is wrong with u (0) or N (1), as a verb and a complement.
-    fn description(&self, index: usize) -> Option<(&'static str, String)> {
-        let unit = ["m", "N"][index];
+    /// Returns what is wrong with u or N, whose unit is given: a verb, also of both, and a complement.
+    fn description(&self, unit: &str) -> Option<([&'static str; 2], String)> {
+        let (is, has) = (["is", "are"], ["has", "have"]);
         Some(match self {
             Deviation::None => return None,
             Deviation::Sum(sum) => {
                 let size = if *sum < Exact::zero() { "small" } else { "large" };
-                ("is", format!("{} {unit} too {size}", format_short(&sum.abs())))
+                (is, format!("{} {unit} too {size}", format_short(&sum.abs())))
             }
-            Deviation::Factor(k) => ("is", format!("{} times the right value", format_short(k))),
-            Deviation::Decimals(n) => ("has", format!("at most {n} decimals")),
-            Deviation::Digits(n) => ("has", format!("at most {n} digits")),
+            Deviation::Factor(k) => (is, format!("{} times the right value", format_short(k))),
+            Deviation::Decimals(n) => (has, format!("at most {n} decimals")),
+            Deviation::Digits(n) => (has, format!("at most {n} digits")),
         })
     }
 }
 
-/// Returns the deviations of u and N that a search finds; `None` if it finds one of them only, or neither deviates.
-pub(super) fn deviations<'a>(
+/// Returns the deviations of u and N that searches find; `None` if they find one of them only, or neither deviates.
+fn deviations<'a>(
     answers: &[&'a Observation<'a>],
     fit: &'a Exact,
-    find: fn(&Output<'a>) -> Option<Deviation>,
-) -> Option<[Deviation; 2]> {
-    let both = [Output::of(0, answers, fit)?.deviation(find)?, Output::of(1, answers, fit)?.deviation(find)?];
-    (both != [Deviation::None, Deviation::None]).then_some(both)
-}
-
-/// Returns `true` if u and N of an answer have these deviations.
-pub(super) fn have_deviations(answer: &Observation, both: &[Deviation; 2], fit: &Exact) -> bool {
-    both.iter().enumerate().all(|(i, deviation)| {
-        let output = Output::of(i, std::slice::from_ref(&answer), fit);
-        output.is_some_and(|output| output.has(deviation))
-    })
-}
-
-/// Describes the deviations of u and N.
-pub(super) fn described([u, n]: &[Deviation; 2]) -> String {
-    match (u.description(0), n.description(1)) {
-        (Some(("is", what)), Some(_)) if u == n => format!("u and N are {what}"),
-        (Some((_, what)), Some(_)) if u == n => format!("u and N have {what}"),
+    searches: &[Find<'a>],
+) -> Option<Explanation> {
+    let [u, n] = [0, 1].map(|i| Output::of(i, answers, fit)?.deviation(searches));
+    let both = [u?, n?];
+    let name = match (both[0].description("m"), both[1].description("N")) {
+        (None, None) => return None,
+        (Some(([_, verb], what)), Some(_)) if both[0] == both[1] => format!("u and N {verb} {what}"),
         (u, n) => {
-            let both = [("u", u), ("N", n)].into_iter();
-            let named =
-                both.filter_map(|(name, said)| said.map(|(verb, what)| format!("{name} {verb} {what}")));
+            let named = [("u", u), ("N", n)].into_iter().filter_map(|(name, said)| {
+                let ([verb, _], what) = said?;
+                Some(format!("{name} {verb} {what}"))
+            });
             named.collect::<Vec<_>>().join(", and ")
         }
-    }
+    };
+    let fit = fit.clone();
+    let may_give = Box::new(move |answer: &Observation| {
+        both.iter()
+            .enumerate()
+            .all(|(i, deviation)| Output::of(i, &[answer], &fit).is_some_and(|output| output.has(deviation)))
+    });
+    Some(Explanation { may_give, ..Explanation::new(name, Vec::new()) })
+}
+
+/// Returns the sums or factors by which u and N deviate.
+pub(super) fn sums_or_factors<'a>(answers: &[&'a Observation<'a>], fit: &'a Exact) -> Option<Explanation> {
+    deviations(answers, fit, &[Output::sum, Output::factor])
+}
+
+/// Returns the number of decimals or digits of right numbers, preferably of the same kind for u and N.
+pub(super) fn few_digits<'a>(answers: &[&'a Observation<'a>], fit: &'a Exact) -> Option<Explanation> {
+    let (decimals, digits): (Find, Find) = (Output::few_decimals, Output::few_digits);
+    let searches: [&[Find]; 3] = [&[decimals], &[digits], &[decimals, digits]];
+    searches.into_iter().find_map(|searches| deviations(answers, fit, searches))
 }
 
 /// Returns the largest error of u in m, of N in N, and of their equilibrium in N: each if several are almost as large

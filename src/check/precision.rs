@@ -1,7 +1,8 @@
 //! Parameters of less precision than requested.
 
 use super::observation::Observation;
-use super::problems::{DIGITS, decimal, short};
+use super::problems::DIGITS;
+use super::scales::{decimal, short};
 use crate::chapter::SpringMass;
 use crate::number::{Exact, ToExact};
 use std::fmt;
@@ -55,25 +56,15 @@ impl Rounding {
         }
     }
 
-    /// Returns a system in which the parameters with these symbols are rounded, if they can be.
-    fn of_system(
-        self,
-        system: &SpringMass<Exact>,
-        symbols: &[&str],
-        round: fn(Self, &Exact) -> Option<Exact>,
-    ) -> SpringMass<Exact> {
-        SpringMass::SYMBOLS.zip(system.as_ref()).map(|(symbol, x)| {
-            let rounded = if symbols.contains(symbol) { round(self, x) } else { None };
-            rounded.unwrap_or_else(|| (*x).clone())
-        })
-    }
-
     /// Returns `true` if right programs that round these parameters give all answers: the numbers themselves, or
     /// the nearest floats.
     fn explains(self, symbols: &[&str], answers: &[&Observation], tolerance: &Exact) -> bool {
         [Rounding::of, Rounding::of_float].into_iter().any(|round| {
             answers.iter().all(|answer| {
-                let system = self.of_system(&answer.problem.system, symbols, round);
+                let system = SpringMass::SYMBOLS.zip(answer.problem.system.as_ref()).map(|(symbol, x)| {
+                    let rounded = if symbols.contains(symbol) { round(self, x) } else { None };
+                    rounded.unwrap_or_else(|| (*x).clone())
+                });
                 answer.is_explained_by_parameters(&system, tolerance)
             })
         })

@@ -3,9 +3,10 @@
 //! A number is drawn as an integer and a power of ten, so that a seed has the same meaning on every machine,
 //! and has at most [`DIGITS`] digits, so that its text is exact.
 
-use super::assessment::scales;
-use crate::chapter::{SpringMass, structure};
+use super::scales::{decimal, scales, short};
+use crate::chapter::{SpringMass, contact, penalty, structure};
 use crate::number::{Exact, PositivePart};
+use crate::solver::{Method, Solution, solve};
 use num_traits::{One, Zero};
 use oorandom::Rand64;
 use rug::float::Round;
@@ -131,6 +132,32 @@ pub struct Problem {
     pub penalty: Option<Exact>,
 }
 
+impl Problem {
+    /// Returns the exact solution of (1.6), or of (1.13) and (1.12) with unilateral contact.
+    ///
+    /// # Panics
+    /// Panics if c, m or ε is not positive.
+    pub fn solution(&self) -> Solution<Exact> {
+        let method = match &self.penalty {
+            None => Method::Lagrange,
+            Some(penalty) => Method::Penalty { penalty: penalty.clone() },
+        };
+        solve(&self.system, &method).expect("a system with c, m and ε > 0")
+    }
+}
+
+/// Returns the right formulas of u in m and N in N, by Lagrange multiplier or by penalty.
+pub(super) fn right<T: PositivePart>(system: &SpringMass<T>, penalty: Option<&T>) -> [T; 2] {
+    match penalty {
+        None => [contact::deflection(system), contact::contact_force(system)],
+        Some(eps) => {
+            let u = penalty::unilateral_deflection(system, eps);
+            let n = penalty::contact_force(system, eps, &u).positive_part();
+            [u, n]
+        }
+    }
+}
+
 /// Returns `cases` systems of each family, or of each decade of [`Family::Graded`], drawn from a seed.
 ///
 /// # Examples
@@ -152,16 +179,6 @@ pub fn problems(seed: u64, cases: u64, families: &[Family]) -> Vec<Problem> {
         }
     }
     all
-}
-
-/// mantissa × 10^exponent
-pub(super) fn decimal(mantissa: i64, exponent: i32) -> Exact {
-    format!("{mantissa}e{exponent}").parse().expect("a decimal")
-}
-
-/// Returns the nearest decimal with this number of digits.
-pub(super) fn short(x: &Exact, digits: usize) -> Exact {
-    x.decimal(digits, Round::Nearest).parse().expect("a decimal")
 }
 
 /// Returns one unit of the last allowed digit.

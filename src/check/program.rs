@@ -8,7 +8,6 @@ use crate::claims::symbols;
 use crate::number::tree::{Op, piecewise_ops};
 use crate::number::{Exact, PositivePart, Tree};
 use crate::proof::mutation::mutated;
-use num_traits::Zero;
 use std::cell::Cell;
 
 /// u in m and N in N, as formulas.
@@ -37,10 +36,13 @@ impl Step {
     /// Describes another formula for it.
     fn edit(&self, new: &Tree) -> String {
         let Step { name, value, role } = self;
-        match role {
-            Role::Condition => format!("the plane acts if {new} > 0 instead of if {value} > 0"),
-            _ => format!("{}{name} = {new} instead of {value}", role.state()),
-        }
+        let state = match role {
+            Role::Condition => return format!("the plane acts if {new} > 0 instead of if {value} > 0"),
+            Role::InContact => "in contact ",
+            Role::Apart => "without contact ",
+            Role::Intermediate | Role::Always => "",
+        };
+        format!("{state}{name} = {new} instead of {value}")
     }
 }
 
@@ -58,34 +60,12 @@ enum Role {
     Always,
 }
 
-impl Role {
-    /// Returns the state to which a result belongs, as words before an edit.
-    fn state(self) -> &'static str {
-        match self {
-            Role::InContact => "in contact ",
-            Role::Apart => "without contact ",
-            Role::Intermediate | Role::Condition | Role::Always => "",
-        }
-    }
-}
-
 /// A program: intermediate results, and u and N, or a condition, and u and N for each of two states.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Program {
     steps: Vec<Step>,
     /// The returned u and N, as functions of the computed ones.
     returned: Formulas,
-}
-
-/// The results of a program as functions of the parameters.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Results {
-    /// The quantity that is positive in contact, if there are two states.
-    pub condition: Option<Tree>,
-    /// u and N in contact.
-    pub contact: Formulas,
-    /// u and N otherwise.
-    pub separated: Formulas,
 }
 
 /// A wrong program.
@@ -95,58 +75,77 @@ pub(super) struct Mistake {
     pub name: String,
     /// The program.
     pub program: Program,
-    /// Its results.
-    pub results: Results,
-    /// Number of augmentations, if k is their penalty.
-    pub augmentations: Option<i32>,
-    /// Whether it concerns the value of a parameter.
-    pub is_parameter: bool,
-    /// Whether it is right except for its decision between the two states.
-    pub is_decision: bool,
+    pub kind: Kind,
+}
+
+/// Kind of a mistake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Any that is not one of the following.
+    Formula,
+    /// The value of a parameter is wrong.
+    Parameter,
+    /// Only the decision between the two states is wrong.
+    Decision,
+    /// k is the penalty of this number of augmentations.
+    Augmentations(i32),
 }
 
 impl Mistake {
     fn new(name: impl Into<String>, program: Program) -> Self {
-        let results = program.results();
-        Mistake {
-            name: name.into(),
-            program,
-            results,
-            augmentations: None,
-            is_parameter: false,
-            is_decision: false,
-        }
+        Mistake { name: name.into(), program, kind: Kind::Formula }
     }
 
-    fn of_parameter(name: String, program: Program) -> Self {
-        Mistake { is_parameter: true, ..Mistake::new(name, program) }
+    fn of(kind: Kind, name: impl Into<String>, program: Program) -> Self {
+        Mistake { kind, ..Mistake::new(name, program) }
     }
 }
 
-impl Results {
-    /// Returns the formulas for a state.
-    pub fn of_state(&self, touches: bool) -> &Formulas {
-        if touches { &self.contact } else { &self.separated }
+/// Known quantities: the parameters, ε and k, if they are known, and earlier results of a program.
+#[derive(Clone)]
+pub(super) struct Known<'a, T> {
+    system: &'a SpringMass<T>,
+    penalty: Option<&'a T>,
+    k: Option<&'a T>,
+    results: Vec<(&'static str, Option<T>)>,
+}
+
+impl<'a, T: PositivePart> Known<'a, T> {
+    pub fn new(system: &'a SpringMass<T>, penalty: Option<&'a T>, k: Option<&'a T>) -> Self {
+        Known { system, penalty, k, results: Vec::new() }
     }
 
-    /// Returns `true` if a formula divides by the number 0, so that the program has no answer.
-    fn divide_by_zero(&self) -> bool {
-        let mut formulas = self.condition.iter().chain(&self.contact).chain(&self.separated);
-        formulas.any(|formula| formula.any(&divides_by_zero))
+    /// Returns the quantity with a symbol, if it is known.
+    fn symbol(&self, name: &str) -> Option<&T> {
+        let mut results = self.results.iter();
+        if let Some((_, result)) = results.find(|(other, _)| *other == name) {
+            return result.as_ref();
+        }
+        match name {
+            "ε" => self.penalty,
+            "k" => self.k,
+            name => self.system.by_symbol(name),
+        }
     }
 
-    /// Returns u and N for a problem and an unknown number.
-    pub fn values(&self, Problem { system, penalty, .. }: &Problem, k: Option<&Exact>) -> [Option<Exact>; 2] {
-        let constants = Constants { penalty: penalty.as_ref(), factor: k };
-        let touches = self.reaction(system, &constants) > Exact::zero();
-        self.of_state(touches).each_ref().map(|formula| value(formula, system, &constants))
+    /// Returns the value of a formula; `None` if it divides by zero, or contains an unknown quantity.
+    fn value(&self, tree: &Tree) -> Option<T> {
+        let is_known = Cell::new(true);
+        let symbol = |name| {
+            let value = self.symbol(name).cloned();
+            is_known.set(is_known.get() && value.is_some());
+            value.unwrap_or_else(T::zero)
+        };
+        tree.eval(&symbol, &piecewise_ops).filter(|_| is_known.get())
     }
 
-    /// Returns the value that decides the state: R if there is no condition.
-    pub fn reaction(&self, system: &SpringMass<Exact>, constants: &Constants<Exact>) -> Exact {
-        let condition = self.condition.as_ref();
-        let value = condition.and_then(|condition| value(condition, system, constants));
-        value.unwrap_or_else(|| system::reaction(system))
+    /// Adds the results of the steps of a program with these roles.
+    fn with(mut self, program: &Program, roles: [Role; 3]) -> Self {
+        for step in program.steps.iter().filter(|step| roles.contains(&step.role)) {
+            let value = self.value(&step.value);
+            self.results.push((step.name, value));
+        }
+        self
     }
 }
 
@@ -163,7 +162,7 @@ impl Program {
         Program::new(named, last)
     }
 
-    fn without_branches(named: &Named, [u, n]: Formulas) -> Self {
+    pub fn without_branches(named: &Named, [u, n]: Formulas) -> Self {
         Program::new(named, [("u", u, Role::Always), ("N", n, Role::Always)])
     }
 
@@ -205,24 +204,30 @@ impl Program {
         Program { steps, returned: self.returned.clone() }
     }
 
-    /// Returns the results as functions of the parameters.
-    pub fn results(&self) -> Results {
-        let inlined = self.inlined();
-        let condition = inlined.condition().map(|i| inlined.steps[i].value.clone());
-        let [contact, apart] = match condition {
-            None => [Role::Always, Role::Always],
-            Some(_) => [Role::InContact, Role::Apart],
-        };
-        Results { condition, contact: inlined.results_of(contact), separated: inlined.results_of(apart) }
+    /// Returns `true` if the program decides for contact: by R if it has no condition.
+    pub fn touches<T: PositivePart + PartialOrd>(&self, known: &Known<T>) -> bool {
+        let results = known.clone().with(self, [Role::Intermediate, Role::Condition, Role::Condition]);
+        let condition = results.symbol("condition").cloned();
+        condition.unwrap_or_else(|| system::reaction(known.system)) > T::zero()
     }
 
-    /// Returns the returned u and N of a program without intermediate results.
-    fn results_of(&self, role: Role) -> Formulas {
-        let mut known: Vec<(&str, Tree)> = Vec::new();
-        for step in self.of(role) {
-            known.push((step.name, step.value.substitute(&known)));
-        }
-        self.returned.each_ref().map(|formula| formula.substitute(&known))
+    /// Returns u and N in a state.
+    pub fn values<T: PositivePart>(&self, known: &Known<T>, touches: bool) -> [Option<T>; 2] {
+        let state = if touches { Role::InContact } else { Role::Apart };
+        let results = known.clone().with(self, [Role::Intermediate, state, Role::Always]);
+        self.returned.each_ref().map(|formula| results.value(formula))
+    }
+
+    /// Returns u and N for a problem and an unknown number.
+    pub fn answer(&self, Problem { system, penalty, .. }: &Problem, k: Option<&Exact>) -> [Option<Exact>; 2] {
+        let known = Known::new(system, penalty.as_ref(), k);
+        self.values(&known, self.touches(&known))
+    }
+
+    /// Returns `true` if a formula divides by the number 0, so that the program has no answer.
+    fn divides_by_zero(&self) -> bool {
+        let is_division = |tree: &Tree| matches!(tree.op(), Op::Div(_, by) if *by.op() == Op::Int(0));
+        self.steps.iter().any(|step| step.value.any(&is_division))
     }
 
     /// Returns the lines of the program.
@@ -254,6 +259,11 @@ impl Program {
         changed
     }
 
+    /// Returns the program with another condition.
+    fn deciding_by(&self, condition: Tree) -> Self {
+        self.with(self.condition().expect("a program with branches"), condition)
+    }
+
     /// Returns the program that uses these formulas for parameters.
     fn using(&self, replaced: &[(&str, Tree)]) -> Self {
         let mut changed = self.clone();
@@ -278,22 +288,17 @@ impl Program {
     }
 
     /// Returns the programs that use another value for a parameter.
-    fn with_one_parameter(&self, by_penalty: bool) -> Vec<Mistake> {
-        let names = parameters(by_penalty);
+    fn with_one_parameter(&self, parameters: &[&'static str]) -> Vec<Mistake> {
         let mut all = Vec::new();
-        for (i, x) in names.iter().enumerate() {
+        for (i, x) in parameters.iter().enumerate() {
             let parameter = Tree::symbol(x);
             let [_, negated, bracketed, size] = signs(&parameter);
-            let used = [negated, size, bracketed, Tree::from(0), Tree::from(1)];
-            for used in used {
-                all.push(Mistake::of_parameter(
-                    format!("{used} is used for {x}"),
-                    self.using(&[(x, used.clone())]),
-                ));
+            for used in [negated, size, bracketed, Tree::from(0), Tree::from(1)] {
+                let name = format!("{used} is used for {x}");
+                all.push(Mistake::of(Kind::Parameter, name, self.using(&[(x, used)])));
             }
-            for y in &names[..i] {
-                let other = Tree::symbol(y);
-                let program = self.using(&[(x, other), (y, parameter.clone())]);
+            for y in &parameters[..i] {
+                let program = self.using(&[(x, Tree::symbol(y)), (y, parameter.clone())]);
                 all.push(Mistake::new(format!("{y} and {x} are swapped"), program));
             }
         }
@@ -305,58 +310,30 @@ impl Program {
         let [l, h, u, n] = ["l", "H", "u", "N"].map(|name| Tree::symbol(name));
         let system = &symbols().system;
         let (zero, p) = (Tree::from(0), contact::penetration(system, &u));
-        let force = augmented::contact_force(system, &u);
-        let sum = system::weight(system) + structure::spring_force(system, &u);
+        let (weight, spring) = (system::weight(system), structure::spring_force(system, &u));
         // At least −|l|.
         let bounded = -(-&u).min(&l.abs());
-        let deflections =
-            [-&u, u.abs(), u.positive_part(), zero.clone(), &l + &u, p.clone(), -p, h - l, bounded];
-        let weight = system::weight(system);
-        let [by_gravity, by_weight] = [&n / &system.g, &n / &weight];
-        let forces = [
-            -&n,
-            n.abs(),
-            zero.clone(),
-            weight,
-            structure::spring_force(system, &u),
-            sum,
-            by_gravity,
-            by_weight,
+        let as_u = [-&u, u.abs(), u.positive_part(), zero.clone(), &l + &u, p.clone(), -p, h - l, bounded];
+        let both = &weight + &spring;
+        let as_n = [-&n, n.abs(), zero.clone(), weight.clone(), spring, both, &n / &system.g, &n / &weight];
+        let forces = [augmented::contact_force(system, &u), system::reaction(system)];
+        let as_n = as_n.into_iter().chain(forces.iter().flat_map(signs));
+        let as_u = as_u.into_iter().map(|x| (format!("{x} is returned as u"), [x, n.clone()]));
+        let as_n = as_n.map(|x| (format!("{x} is returned as N"), [u.clone(), x]));
+        let both = [
+            ("u and N are swapped".to_string(), [n.clone(), u.clone()]),
+            ("0 is returned as u and N".to_string(), [zero.clone(), zero]),
         ];
-        let forces = forces.into_iter().chain(signs(&force)).chain(signs(&system::reaction(system)));
-        let mut returned = Vec::new();
-        for u in deflections {
-            returned.push((format!("{u} is returned as u"), [u, n.clone()]));
-        }
-        for n in forces {
-            returned.push((format!("{n} is returned as N"), [u.clone(), n]));
-        }
-        returned.push(("u and N are swapped".to_string(), [n, u]));
-        returned.push(("0 is returned as u and N".to_string(), [zero.clone(), zero]));
-        let returning = |(name, returned)| Mistake::new(name, Program { returned, ..self.clone() });
-        returned.into_iter().map(returning).collect()
+        as_u.chain(as_n).chain(both).map(|(name, returned)| self.returning(name, returned)).collect()
     }
 
-    /// Returns the program with one edit, in all ways.
-    fn edited(&self, by_penalty: bool) -> Vec<Mistake> {
-        let parts = [self.with_one_parameter(by_penalty), self.with_one_operation(), self.with_one_output()];
-        parts.concat()
+    fn returning(&self, name: impl Into<String>, returned: Formulas) -> Mistake {
+        Mistake::new(name, Program { returned, ..self.clone() })
     }
-}
-
-/// Returns `true` if the last operation divides by the number 0.
-fn divides_by_zero(tree: &Tree) -> bool {
-    matches!(tree.op(), Op::Div(_, divisor) if *divisor.op() == Op::Int(0))
 }
 
 fn returned() -> Formulas {
     ["u", "N"].map(|name| Tree::symbol(name))
-}
-
-/// Returns the symbols of the parameters.
-fn parameters(by_penalty: bool) -> Vec<&'static str> {
-    let penalty = by_penalty.then_some("ε");
-    SpringMass::SYMBOLS.into_array().into_iter().chain(penalty).collect()
 }
 
 /// Returns a quantity, its negative, its positive part, and its absolute value.
@@ -394,158 +371,180 @@ fn changes_of_last(tree: &Tree, known: &[&str]) -> Vec<Tree> {
     all
 }
 
-/// Returns the right programs: each as it is written in the chapter, and as others write it.
-pub(super) fn references(by_penalty: bool) -> Vec<Program> {
-    let (system, eps) = (&symbols().system, &symbols().eps);
-    let (u, p) = (Tree::symbol("u"), Tree::symbol("p"));
-    let (gap, reaction) = (("gap", system::gap(system)), ("R", system::reaction(system)));
-    let condition = Tree::symbol("R");
-    let apart = [structure::deflection(system), Tree::from(0)];
-    let both = [gap.clone(), reaction.clone()];
-    if by_penalty {
-        let touching = [penalty::deflection(system, eps), penalty::contact_force(system, eps, &u)];
-        let closed = ("p", penalty::penetration(system, eps));
-        let force = eps * &p;
-        let bracket = penalty::contact_force(system, eps, &u).positive_part();
-        return vec![
-            Program::with_branches(&both, condition.clone(), touching, apart.clone()),
-            Program::without_branches(
-                std::slice::from_ref(&gap),
-                [penalty::unilateral_deflection(system, eps), bracket],
-            ),
-            Program::with_branches(
-                &[gap, reaction, closed],
-                condition,
-                [system::gap(system) + &p, force],
-                apart,
-            ),
-        ];
+/// Returns u and N without the plane.
+fn apart() -> Formulas {
+    [structure::deflection(&symbols().system), Tree::from(0)]
+}
+
+/// The method whose solutions are the right ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Reference {
+    Multiplier,
+    Penalty,
+}
+
+impl Reference {
+    /// Returns the method that problems ask for.
+    pub fn of<'a>(problems: impl IntoIterator<Item = &'a Problem>) -> Self {
+        let by_penalty = problems.into_iter().any(|problem| problem.penalty.is_some());
+        if by_penalty { Reference::Penalty } else { Reference::Multiplier }
     }
-    let trial = structure::deflection(system);
-    let predicted = [("u₀", trial.clone()), ("p", contact::penetration(system, &trial))];
-    let (touching, admissible) = (lagrange::deflection(system), contact::deflection(system));
-    let (multiplier, force) = (lagrange::multiplier(system), augmented::contact_force(system, &u));
-    let at_plane = [touching.clone(), structure::spring_force(system, &p)];
-    vec![
-        Program::with_branches(&both, condition.clone(), [touching.clone(), multiplier], apart.clone()),
-        Program::without_branches(&both, [admissible.clone(), contact::contact_force(system)]),
-        Program::with_branches(&both, condition, [touching, force.clone()], apart.clone()),
-        Program::with_branches(&predicted, p, at_plane, apart),
-        Program::without_branches(&both[..1], [admissible.clone(), force.clone()]),
-        Program::without_branches(&both[..1], [admissible, force.positive_part()]),
-    ]
-}
 
-/// Returns the right program as it is written in the chapter.
-pub(super) fn reference(by_penalty: bool) -> Program {
-    references(by_penalty).swap_remove(0)
-}
+    /// Returns the symbols of the parameters.
+    fn parameters(self) -> Vec<&'static str> {
+        let penalty = (self == Reference::Penalty).then_some("ε");
+        SpringMass::SYMBOLS.into_array().into_iter().chain(penalty).collect()
+    }
 
-/// Returns every program with one edit: first those without a decision, and last those that change one use of a
-/// result.
-pub(super) fn edits(by_penalty: bool) -> Vec<Mistake> {
-    let programs = references(by_penalty);
-    let rigid = by_penalty.then(|| Mistake::new("ε is not used: the plane is rigid", reference(false)));
-    let edited = programs.iter().flat_map(|program| program.edited(by_penalty));
-    let of_one_use = programs.iter().flat_map(|program| program.inlined().with_one_operation());
-    let edited = edited.chain(of_one_use).filter(|mistake| !mistake.results.divide_by_zero());
-    undecided(by_penalty).into_iter().chain(decided_by_gap(by_penalty)).chain(rigid).chain(edited).collect()
-}
+    /// Returns the right program as it is written in the chapter.
+    pub fn program(self) -> Program {
+        self.programs().swap_remove(0)
+    }
 
-/// Returns the programs whose lengths decide the state.
-fn decided_by_gap(by_penalty: bool) -> [Mistake; 2] {
-    let (program, gap) = (reference(by_penalty), Tree::symbol("gap"));
-    let condition = program.condition().expect("a program with branches");
-    let [below, above] = [program.with(condition, -&gap), program.with(condition, gap)];
-    [Mistake::new("the plane acts if H > l", above), Mistake::new("the plane acts if H < l", below)]
-}
-
-/// Returns the mistakes that a program may make in some answers only: in its decision or its output.
-pub(super) fn in_some_answers(by_penalty: bool) -> Vec<Mistake> {
-    [undecided(by_penalty), reference(by_penalty).with_one_output()].concat()
-}
-
-/// Returns the programs that always, or never, give the results in contact.
-fn undecided(by_penalty: bool) -> Vec<Mistake> {
-    let program = reference(by_penalty);
-    let condition = program.condition().expect("a program with branches");
-    let [never, always] = [0, 1].map(|value| program.with(condition, Tree::from(value)));
-    let without_force = always.with(condition + 2, Tree::from(0));
-    [
-        ("the plane always acts", always),
-        ("the plane never acts", never),
-        ("the mass is held at the plane, with N = 0", without_force),
-    ]
-    .map(|(name, program)| Mistake { is_decision: true, ..Mistake::new(name, program) })
-    .to_vec()
-}
-
-/// Returns every program with one unknown number k.
-pub(super) fn numbers(by_penalty: bool) -> Vec<Mistake> {
-    let (system, k) = (&symbols().system, &Tree::symbol("k"));
-    let first = reference(by_penalty);
-    let mut all = Vec::new();
-    for x in parameters(by_penalty) {
-        let parameter = Tree::symbol(x);
-        for (name, used) in [
-            (format!("{x} is {{k}} times the right value"), k * &parameter),
-            (format!("{x} is always {{k}}"), k.clone()),
-            (format!("{{k}} is added to {x}"), &parameter + k),
-        ] {
-            all.push(Mistake::of_parameter(name, first.using(&[(x, used)])));
+    /// Returns the right programs: each as it is written in the chapter, and as others write it.
+    pub fn programs(self) -> Vec<Program> {
+        let (system, eps) = (&symbols().system, &symbols().eps);
+        let [u, p, condition] = ["u", "p", "R"].map(|name| Tree::symbol(name));
+        let (gap, reaction) = (("gap", system::gap(system)), ("R", system::reaction(system)));
+        if self == Reference::Penalty {
+            let force = penalty::contact_force(system, eps, &u);
+            let touching = [penalty::deflection(system, eps), force.clone()];
+            let always = [penalty::unilateral_deflection(system, eps), force.positive_part()];
+            let by_p = [system::gap(system) + &p, eps * &p];
+            let closed = ("p", penalty::penetration(system, eps));
+            return vec![
+                Program::with_branches(
+                    &[gap.clone(), reaction.clone()],
+                    condition.clone(),
+                    touching,
+                    apart(),
+                ),
+                Program::without_branches(std::slice::from_ref(&gap), always),
+                Program::with_branches(&[gap, reaction, closed], condition, by_p, apart()),
+            ];
         }
+        let trial = structure::deflection(system);
+        let predicted = [("u₀", trial.clone()), ("p", contact::penetration(system, &trial))];
+        let both = [gap, reaction];
+        let (touching, admissible) = (lagrange::deflection(system), contact::deflection(system));
+        let (multiplier, force) = (lagrange::multiplier(system), augmented::contact_force(system, &u));
+        let at_plane = [touching.clone(), structure::spring_force(system, &p)];
+        let bracket = force.positive_part();
+        vec![
+            Program::with_branches(&both, condition.clone(), [touching.clone(), multiplier], apart()),
+            Program::without_branches(&both, [admissible.clone(), contact::contact_force(system)]),
+            Program::with_branches(&both, condition, [touching, force.clone()], apart()),
+            Program::with_branches(&predicted, p, at_plane, apart()),
+            Program::without_branches(&both[..1], [admissible.clone(), force]),
+            Program::without_branches(&both[..1], [admissible, bracket]),
+        ]
     }
-    let direction = [("g", k * &system.g / system.g.abs())];
-    all.push(Mistake::of_parameter(
-        "g is always {k} or the negative of it".to_string(),
-        first.using(&direction),
-    ));
-    let lengths = [("l", k * &system.l), ("H", k * &system.h)];
-    all.push(Mistake::new("l and H are {k} times the right values", first.using(&lengths)));
-    let [u, n] = returned();
-    for (name, [u, n]) in [
-        ("u is at most {k} m", [u.min(k), n.clone()]),
-        ("u is at least {k} m", [-(-&u).min(&-k), n.clone()]),
-        ("N is at most {k} N", [u, n.min(k)]),
-    ] {
-        all.push(Mistake::new(name, Program { returned: [u, n], ..first.clone() }));
+
+    /// Returns every program with one edit: first those without a decision, and last those that change one use of
+    /// a result.
+    pub fn edits(self) -> Vec<Mistake> {
+        let mut all = self.decisions();
+        let (program, gap) = (self.program(), Tree::symbol("gap"));
+        all.push(Mistake::new("the plane acts if H > l", program.deciding_by(gap.clone())));
+        all.push(Mistake::new("the plane acts if H < l", program.deciding_by(-gap)));
+        if self == Reference::Penalty {
+            let rigid = Reference::Multiplier.program();
+            all.push(Mistake::new("ε is not used: the plane is rigid", rigid));
+        }
+        let programs = self.programs();
+        for program in &programs {
+            all.extend(program.with_one_parameter(&self.parameters()));
+            all.extend(program.with_one_operation());
+            all.extend(program.with_one_output());
+        }
+        all.extend(programs.iter().flat_map(|program| program.inlined().with_one_operation()));
+        all.retain(|mistake| !mistake.program.divides_by_zero());
+        all
     }
-    if by_penalty {
-        let eps = &symbols().eps;
-        let u = augmented::deflection(system, eps, k);
-        let both = [u.clone(), augmented::update(system, eps, k, &u)];
-        let apart = [structure::deflection(system), Tree::from(0)];
-        let program = Program::with_branches(&[], system::reaction(system), both, apart);
-        all.push(Mistake::new("it is one augmentation from the multiplier {k} N", program));
-    } else {
-        all.extend(unrequested_penalties(system, k));
-        all.extend(augmentations(system, k));
+
+    /// Returns the mistakes that a program may make in some answers only: in its decision or its output.
+    pub fn in_some_answers(self) -> Vec<Mistake> {
+        [self.decisions(), self.program().with_one_output()].concat()
     }
-    all
+
+    /// Returns the programs that always, or never, give the results in contact.
+    fn decisions(self) -> Vec<Mistake> {
+        let program = self.program();
+        let [never, always] = [0, 1].map(|value| program.deciding_by(Tree::from(value)));
+        let mut without_force = always.clone();
+        let mut forces = without_force.steps.iter_mut().filter(|step| step.name == "N");
+        forces.next().expect("a force in contact").value = Tree::from(0);
+        vec![
+            Mistake::of(Kind::Decision, "the plane always acts", always),
+            Mistake::of(Kind::Decision, "the plane never acts", never),
+            Mistake::of(Kind::Decision, "the mass is held at the plane, with N = 0", without_force),
+        ]
+    }
+
+    /// Returns every program with one unknown number k.
+    pub fn numbers(self) -> Vec<Mistake> {
+        let (system, k) = (&symbols().system, &Tree::symbol("k"));
+        let program = self.program();
+        let mut all = Vec::new();
+        for x in self.parameters() {
+            let parameter = Tree::symbol(x);
+            for (name, used) in [
+                (format!("{x} is {{k}} times the right value"), k * &parameter),
+                (format!("{x} is always {{k}}"), k.clone()),
+                (format!("{{k}} is added to {x}"), &parameter + k),
+            ] {
+                all.push(Mistake::of(Kind::Parameter, name, program.using(&[(x, used)])));
+            }
+        }
+        let direction = program.using(&[("g", k * &system.g / system.g.abs())]);
+        all.push(Mistake::of(Kind::Parameter, "g is always {k} or the negative of it", direction));
+        let lengths = program.using(&[("l", k * &system.l), ("H", k * &system.h)]);
+        all.push(Mistake::new("l and H are {k} times the right values", lengths));
+        let [u, n] = returned();
+        all.push(program.returning("u is at most {k} m", [u.min(k), n.clone()]));
+        all.push(program.returning("u is at least {k} m", [-(-&u).min(&-k), n.clone()]));
+        all.push(program.returning("N is at most {k} N", [u, n.min(k)]));
+        match self {
+            Reference::Multiplier => {
+                all.extend(unrequested_penalties(system, k));
+                all.extend(augmentations(system, k));
+            }
+            Reference::Penalty => {
+                let eps = &symbols().eps;
+                let u = augmented::deflection(system, eps, k);
+                let both = [u.clone(), augmented::update(system, eps, k, &u)];
+                all.push(method("it is one augmentation from the multiplier {k} N", both, apart()));
+            }
+        }
+        all
+    }
+}
+
+/// Returns the method with these results, where R > 0, and otherwise.
+fn method(name: impl Into<String>, touching: Formulas, apart: Formulas) -> Mistake {
+    let condition = system::reaction(&symbols().system);
+    Mistake::new(name, Program::with_branches(&[], condition, touching, apart))
 }
 
 /// Returns methods with the penalty ε = k, k c or k m.
 fn unrequested_penalties(system: &SpringMass<Tree>, k: &Tree) -> Vec<Mistake> {
-    let reaction = system::reaction(system);
-    let (free, zero) = (structure::deflection(system), Tree::from(0));
     let exact = [lagrange::deflection(system), lagrange::multiplier(system)];
+    let updated = "only the update of the augmentation is bracketed";
     let mut all = Vec::new();
-    for (value, eps) in [("{k} N/m", k.clone()), ("{k} c", k * &system.c), ("{k}/s² m", k * &system.m)] {
+    for (value, eps, also) in [
+        ("{k} N/m", k.clone(), ""),
+        ("{k} c", k * &system.c, ", or an iteration that always stops after the same number of steps"),
+        ("{k}/s² m", k * &system.m, ""),
+    ] {
         let pulled = penalty::deflection(system, &eps);
-        let pull = penalty::contact_force(system, &eps, &Tree::symbol("u"));
-        let both = [pulled.clone(), pull.clone()];
-        let updated = "only the update of the augmentation is bracketed";
+        let both = [pulled.clone(), penalty::contact_force(system, &eps, &Tree::symbol("u"))];
         for (name, touching, apart) in [
-            ("it is the penalty method", both.clone(), [free.clone(), zero.clone()]),
+            ("it is the penalty method", both.clone(), apart()),
             ("it is the penalty method, and the plane also pulls", both.clone(), both.clone()),
-            (updated, exact.clone(), [pulled.clone(), zero.clone()]),
+            (updated, exact.clone(), [pulled, Tree::from(0)]),
             (&format!("{updated}, and N is not"), exact.clone(), both.clone()),
         ] {
-            let program = Program::with_branches(&[], reaction.clone(), touching, apart);
-            let name = format!("{name}, with ε = {value}");
-            let iteration = ", or an iteration that always stops after the same number of steps";
-            let name = if value == "{k} c" { name + iteration } else { name };
-            all.push(Mistake::new(name, program));
+            all.push(method(format!("{name}, with ε = {value}{also}"), touching, apart));
         }
     }
     all
@@ -565,62 +564,12 @@ fn augmentations(system: &SpringMass<Tree>, k: &Tree) -> Vec<Mistake> {
         let before = std::mem::replace(&mut force, augmented::update(system, k, &multiplier, &deflection));
         for (what, force) in [("", &force), (", and N is one step behind", &before)] {
             if steps > 1 || !what.is_empty() {
-                let apart = [structure::deflection(system), zero.clone()];
-                let touching = [deflection.clone(), force.clone()];
-                let program = Program::with_branches(&[], system::reaction(system), touching, apart);
                 let name = format!("the augmentation stops after {steps} steps with ε = {{k}} N/m{what}");
-                all.push(Mistake { augmentations: Some(steps), ..Mistake::new(name, program) });
+                let mistake = method(name, [deflection.clone(), force.clone()], apart());
+                all.push(Mistake { kind: Kind::Augmentations(steps), ..mistake });
             }
         }
         decay = decay * &contraction;
     }
     all
-}
-
-/// ε and k, if they are known.
-#[derive(Debug)]
-pub(super) struct Constants<'a, T> {
-    pub penalty: Option<&'a T>,
-    pub factor: Option<&'a T>,
-}
-
-/// Returns the value of a formula for a system and constants; `None` if it divides by zero, or contains an
-/// unknown quantity.
-pub(super) fn value<T: PositivePart>(
-    tree: &Tree,
-    system: &SpringMass<T>,
-    constants: &Constants<T>,
-) -> Option<T> {
-    let is_known = Cell::new(true);
-    let symbol = |name| match constants.symbol(name, system) {
-        Some(value) => value.clone(),
-        None => {
-            is_known.set(false);
-            T::zero()
-        }
-    };
-    tree.eval(&symbol, &piecewise_ops).filter(|_| is_known.get())
-}
-
-impl<'a, T> Constants<'a, T> {
-    /// Returns the quantity with a symbol, if it is known.
-    fn symbol(&self, name: &str, system: &'a SpringMass<T>) -> Option<&'a T> {
-        match name {
-            "ε" => self.penalty,
-            "k" => self.factor,
-            name => system.by_symbol(name),
-        }
-    }
-}
-
-/// Returns the right formulas of u in m and N in N, by Lagrange multiplier or by penalty.
-pub(super) fn right<T: PositivePart>(system: &SpringMass<T>, penalty: Option<&T>) -> [T; 2] {
-    match penalty {
-        None => [contact::deflection(system), contact::contact_force(system)],
-        Some(eps) => {
-            let u = penalty::unilateral_deflection(system, eps);
-            let n = penalty::contact_force(system, eps, &u).positive_part();
-            [u, n]
-        }
-    }
 }

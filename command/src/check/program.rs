@@ -7,16 +7,16 @@ mod group;
 
 use super::reply::{self, words};
 use crate::args::{format_exact, invalid};
-use crate::json::{BUFFER, read_lines};
 use crate::output::{Failure, shortened};
 use group::Group;
+pub use group::end_with_signals;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::check::{Problem, Reply};
 use spring_mass_contact::number::Exact;
-use std::io::{self, BufReader, Read, Write};
-use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
+use std::collections::VecDeque;
+use std::io::{self, Read, Write};
+use std::process::{Command, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
-use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -30,14 +30,15 @@ const POLL_INTERVAL: Duration = Duration::from_millis(50);
 /// Interval of polls for the end of a program that is about to end.
 const EXIT_POLL_INTERVAL: Duration = Duration::from_millis(5);
 
-/// Requirement on the file of a program.
-const EXECUTABLE: &str = "must be an executable program; a script begins with #!";
+/// Error of the operating system for a file whose format it cannot execute, for example a script without its
+/// first line: ERROR_BAD_EXE_FORMAT or ENOEXEC.
+const NO_FORMAT: i32 = if cfg!(windows) { 193 } else { 8 };
+
+/// Number of bytes that are read at once.
+const BLOCK_BYTES: usize = 1 << 16;
 
 /// Number of bytes kept of stderr, the last ones.
 const TAIL_BYTES: usize = 1 << 12;
-
-/// Number of bytes kept of an unanswered line, for a message.
-const MAX_ECHO_BYTES: usize = 400;
 
 /// An external program, which is started for the first problem and restarted after each failure.
 pub struct Program {
@@ -57,7 +58,7 @@ impl Program {
 
     /// Passes a problem to the program. Returns an error only if the program cannot be started.
     pub fn ask(&mut self, problem: &Problem) -> Result<Reply, Failure> {
-        let start = Instant::now();
+        let deadline = Instant::now() + self.timeout;
         let mut running = match self.running.take() {
             Some(running) => running,
             None => match Running::start(&self.words) {
@@ -70,34 +71,35 @@ impl Program {
             },
         };
         self.started = true;
-        Ok(match running.ask(problem, || self.timeout.saturating_sub(start.elapsed())) {
+        Ok(match running.ask(problem, deadline) {
             Ok(reply) => {
                 self.running = Some(running);
                 reply
             }
-            Err(SessionError::UnexpectedReply(reason)) => Reply::InvalidResponse(reason),
-            Err(SessionError::Ended) => Reply::Crashed(running.end(self.grace)),
-            Err(SessionError::TimedOut(seen)) => Reply::TimedOut(seen),
+            Err(Unusable::Replied(reply)) => reply,
+            Err(Unusable::Ended) => Reply::Crashed(running.end(self.grace)),
         })
     }
 
     fn refused(&self, error: &io::Error) -> Failure {
+        let program = words(&self.words[0]);
         let must = match error.kind() {
             io::ErrorKind::NotFound => "must be the name of a program on the PATH, or its path",
-            io::ErrorKind::PermissionDenied => EXECUTABLE,
-            _ if group::has_no_format(error) => EXECUTABLE,
+            kind if kind == io::ErrorKind::PermissionDenied || error.raw_os_error() == Some(NO_FORMAT) => {
+                "must be an executable program; a script begins with #!"
+            }
             // A limit of the operating system, not a property of the program.
-            _ => return format!("'{}' cannot be started: {error}", shortened(&words(&self.words[0]))).into(),
+            _ => return format!("'{}' cannot be started: {error}", shortened(&program)).into(),
         };
-        let reason = format!("cannot be started: {error}; {must}");
-        invalid(&words(&self.words[0]), "<PROGRAM>...", reason)
+        invalid(&program, "<PROGRAM>...", format!("cannot be started: {error}; {must}"))
     }
 }
 
 impl Drop for Program {
     fn drop(&mut self) {
-        if let Some(running) = self.running.take() {
-            running.close(self.grace);
+        if let Some(running) = &mut self.running {
+            running.requests = None;
+            running.ends(self.grace);
         }
     }
 }
@@ -116,21 +118,20 @@ fn number(x: &Exact) -> String {
     if text.contains('/') { format!("\"{text}\"") } else { text }
 }
 
-/// Reason why a running program cannot be used further.
-enum SessionError {
-    /// It returned something other than the answer.
-    UnexpectedReply(String),
+/// Reason why a running program cannot be used further: a reply, or its end.
+enum Unusable {
+    Replied(Reply),
     Ended,
-    /// It did not answer in time; describes its output.
-    TimedOut(String),
 }
 
 /// A running program, which is killed with all its children when dropped.
 struct Running {
     group: Group,
-    requests: Sender<String>,
+    /// Its stdin; `None` to close it.
+    requests: Option<Sender<String>>,
     lines: Lines,
-    stderr: Tail,
+    /// The last bytes of stderr, after its end.
+    stderr: Receiver<Vec<u8>>,
 }
 
 impl Running {
@@ -139,51 +140,67 @@ impl Running {
         command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut group = Group::start(&mut command)?;
         let child = group.child();
-        let pipe = "a piped stream";
-        Ok(Running {
-            requests: writer(child.stdin.take().expect(pipe))?,
-            lines: Lines::of(child.stdout.take().expect(pipe))?,
-            stderr: Tail::of(child.stderr.take().expect(pipe))?,
-            group,
-        })
+        let (requests, queue) = mpsc::channel::<String>();
+        let (blocks, unread) = mpsc::sync_channel(1);
+        let (tail, stderr) = mpsc::channel();
+        if let Some(mut stdin) = child.stdin.take() {
+            thread(move || while queue.recv().is_ok_and(|line| stdin.write_all(line.as_bytes()).is_ok()) {})?;
+        }
+        if let Some(stdout) = child.stdout.take() {
+            // No more is read ahead than two blocks.
+            thread(move || read(stdout, |block| blocks.send(block.to_vec()).is_ok()))?;
+        }
+        if let Some(pipe) = child.stderr.take() {
+            // It is read continuously, so that it never fills up.
+            thread(move || {
+                let mut last = Vec::new();
+                read(pipe, |block| {
+                    last.extend_from_slice(block);
+                    last.drain(..last.len().saturating_sub(TAIL_BYTES));
+                    true
+                });
+                let _ = tail.send(last);
+            })?;
+        }
+        Ok(Running { group, requests: Some(requests), lines: Lines::of(unread), stderr })
     }
 
-    fn ask(&mut self, problem: &Problem, left: impl Fn() -> Duration) -> Result<Reply, SessionError> {
-        // Output that precedes the request cannot be the answer.
-        loop {
-            match self.lines.next(Duration::ZERO) {
-                Ok(line) => reply::early(line, &problem.id)
-                    .map_or(Ok(()), |reason| Err(SessionError::UnexpectedReply(reason)))?,
-                Err(RecvTimeoutError::Timeout) => break,
-                Err(RecvTimeoutError::Disconnected) => return Err(SessionError::Ended),
-            }
-            if left().is_zero() {
-                return Err(SessionError::TimedOut(
-                    "too much output on stdout before the first request".to_string(),
-                ));
-            }
-        }
-        // A program that does not read is detected by its stdout.
-        let _ = self.requests.send(request(problem));
+    fn ask(&mut self, problem: &Problem, deadline: Instant) -> Result<Reply, Unusable> {
+        let left = || deadline.saturating_duration_since(Instant::now());
+        let mut request = Some(request(problem));
         let mut last = Vec::new();
         loop {
             let ended = self.group.has_ended();
-            match self.lines.next(left().min(POLL_INTERVAL)) {
-                Ok(line) => {
-                    if let Some(reply) = reply::read(line, &problem.id) {
-                        return reply.map_err(SessionError::UnexpectedReply);
-                    }
-                    if !line.trim_ascii().is_empty() {
-                        last = line[..line.len().min(MAX_ECHO_BYTES)].to_vec();
+            let wait = if request.is_some() { Duration::ZERO } else { left().min(POLL_INTERVAL) };
+            match self.lines.next(wait) {
+                Ok(None) => {}
+                // Output that precedes the request cannot be the answer.
+                Ok(Some(line)) if request.is_some() => {
+                    if let Some(reason) = reply::early(&line, &problem.id) {
+                        return Err(Unusable::Replied(Reply::InvalidResponse(reason)));
                     }
                 }
-                Err(RecvTimeoutError::Disconnected) => return Err(SessionError::Ended),
-                // Its previous output has had time to arrive.
-                Err(RecvTimeoutError::Timeout) if ended => return Err(SessionError::Ended),
-                Err(RecvTimeoutError::Timeout) => {}
+                Ok(Some(line)) => match reply::read(&line, &problem.id) {
+                    Some(Ok(reply)) => return Ok(reply),
+                    Some(Err(reason)) => return Err(Unusable::Replied(Reply::InvalidResponse(reason))),
+                    None if line.trim_ascii().is_empty() => {}
+                    None => last = line,
+                },
+                Err(RecvTimeoutError::Disconnected) => return Err(Unusable::Ended),
+                Err(RecvTimeoutError::Timeout) => match (request.take(), &self.requests) {
+                    // A program that does not read is detected by its stdout.
+                    (Some(line), Some(requests)) => requests.send(line).unwrap_or_default(),
+                    // Its previous output has had time to arrive.
+                    _ if ended => return Err(Unusable::Ended),
+                    _ => {}
+                },
             }
             if left().is_zero() {
-                return Err(SessionError::TimedOut(last_output(&self.lines.unfinished(), &last)));
+                let seen = match request {
+                    Some(_) => "too much output on stdout before the first request".to_string(),
+                    None => last_output(&self.lines.unfinished, &last),
+                };
+                return Err(Unusable::Replied(Reply::TimedOut(seen)));
             }
         }
     }
@@ -197,26 +214,19 @@ impl Running {
             }
             Ok(_) | Err(_) => "closed its stdout".to_string(),
         };
-        match self.stderr.last_line() {
+        // Another process may keep stderr open.
+        let stderr = self.stderr.recv_timeout(GRACE).unwrap_or_default();
+        let stderr = String::from_utf8_lossy(&stderr);
+        match stderr.split(['\n', '\r']).map(words).rfind(|line| !line.is_empty()) {
             Some(line) => format!("{status}; on stderr: {line}"),
             None => status,
         }
     }
 
-    /// Closes its stdin, and lets it end by itself within `grace`.
-    fn close(mut self, grace: Duration) {
-        let (nobody, _) = mpsc::channel();
-        drop(std::mem::replace(&mut self.requests, nobody));
-        self.ends(grace);
-    }
-
     /// Returns `true` if it ends by itself within `grace`.
     fn ends(&mut self, grace: Duration) -> bool {
         let start = Instant::now();
-        loop {
-            if self.group.has_ended() {
-                return true;
-            }
+        while !self.group.has_ended() {
             if start.elapsed() >= grace {
                 return false;
             }
@@ -225,12 +235,13 @@ impl Running {
                 thread::sleep(EXIT_POLL_INTERVAL);
             }
         }
+        true
     }
 }
 
 /// Describes the output of a program that does not answer.
 fn last_output(unfinished: &[u8], line: &[u8]) -> String {
-    let (kind, line) = match (unfinished, line) {
+    let (kind, line) = match (unfinished.trim_ascii(), line) {
         ([], []) => return "nothing on stdout; it may not flush its output".to_string(),
         ([], line) => ("not a JSON object", line),
         (part, _) => ("without a line break", part),
@@ -243,113 +254,52 @@ fn thread(run: impl FnOnce() + Send + 'static) -> io::Result<()> {
     thread::Builder::new().spawn(run).map(drop)
 }
 
-/// Starts a thread that writes what is sent, as fast as the program reads.
-fn writer(mut stdin: ChildStdin) -> io::Result<Sender<String>> {
-    let (requests, queue) = mpsc::channel::<String>();
-    thread(move || while queue.recv().is_ok_and(|line| stdin.write_all(line.as_bytes()).is_ok()) {})?;
-    Ok(requests)
+/// Passes the blocks of a pipe on until it ends, or they are no longer taken.
+fn read(mut pipe: impl Read, mut takes: impl FnMut(&[u8]) -> bool) {
+    let mut block = vec![0; BLOCK_BYTES];
+    while let Ok(count @ 1..) = pipe.read(&mut block)
+        && takes(&block[..count])
+    {}
 }
 
-/// The lines of stdout. Lines that arrive together are passed on together, so that output after an answer is
-/// available before the next request; no more is read ahead.
+/// The lines of stdout. Those that arrive together are available together, so that output after an answer is
+/// seen before the next request.
 struct Lines {
     blocks: Receiver<Vec<u8>>,
-    block: Vec<u8>,
-    start: usize,
-    unfinished: Arc<Mutex<Vec<u8>>>,
-}
-
-/// stdout, whose incomplete last line is visible to other threads.
-struct Watched {
-    stdout: ChildStdout,
-    unfinished: Arc<Mutex<Vec<u8>>>,
-}
-
-impl Read for Watched {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let count = self.stdout.read(buffer)?;
-        let read = &buffer[..count];
-        let mut unfinished = self.unfinished.lock().unwrap_or_else(PoisonError::into_inner);
-        let line = read.rsplit(|byte| *byte == b'\n').next().unwrap_or(read);
-        if line.len() < read.len() {
-            unfinished.clear();
-        }
-        let room = MAX_ECHO_BYTES.saturating_sub(unfinished.len());
-        unfinished.extend_from_slice(&line[..line.len().min(room)]);
-        Ok(count)
-    }
+    complete: VecDeque<Vec<u8>>,
+    /// The last line, as far as it has arrived.
+    unfinished: Vec<u8>,
 }
 
 impl Lines {
-    fn of(stdout: ChildStdout) -> io::Result<Self> {
-        let (to, blocks) = mpsc::sync_channel(1);
-        let unfinished = Arc::new(Mutex::new(Vec::new()));
-        let stdout = Watched { stdout, unfinished: unfinished.clone() };
-        thread(move || {
-            let mut stdout = BufReader::with_capacity(BUFFER, stdout);
-            loop {
-                let mut block = Vec::new();
-                let read = read_lines(&mut stdout, usize::MAX, reply::MAX_LINE_BYTES, &mut block);
-                let ended = read.is_err() || block.is_empty();
-                if to.send(block).is_err() || ended {
-                    return;
+    fn of(blocks: Receiver<Vec<u8>>) -> Self {
+        Lines { blocks, complete: VecDeque::new(), unfinished: Vec::new() }
+    }
+
+    /// Returns the next line, or `None` if only a part of it arrives within `soon`. The last one may end without
+    /// a line break.
+    fn next(&mut self, soon: Duration) -> Result<Option<Vec<u8>>, RecvTimeoutError> {
+        if self.complete.is_empty() {
+            match self.blocks.recv_timeout(soon) {
+                Ok(block) => self.add(&block),
+                Err(RecvTimeoutError::Disconnected) if !self.unfinished.is_empty() => {
+                    return Ok(Some(std::mem::take(&mut self.unfinished)));
                 }
+                Err(error) => return Err(error),
             }
-        })?;
-        Ok(Lines { blocks, block: Vec::new(), start: 0, unfinished })
-    }
-
-    /// Returns the incomplete last line.
-    fn unfinished(&self) -> Vec<u8> {
-        self.unfinished.lock().unwrap_or_else(PoisonError::into_inner).trim_ascii().to_vec()
-    }
-
-    /// Returns the next line, if it arrives within `soon`.
-    fn next(&mut self, soon: Duration) -> Result<&[u8], RecvTimeoutError> {
-        if self.start == self.block.len() {
-            (self.block, self.start) = (Vec::new(), 0);
-            self.block = self.blocks.recv_timeout(soon)?;
         }
-        let rest = &self.block[self.start..];
-        let line = rest.split(|byte| *byte == b'\n').next().unwrap_or(rest);
-        self.start = (self.start + line.len() + 1).min(self.block.len());
-        Ok(line)
+        Ok(self.complete.pop_front())
     }
-}
 
-/// The end of stderr, which is read continuously so that it never fills up.
-struct Tail {
-    bytes: Arc<Mutex<Vec<u8>>>,
-    ended: Receiver<()>,
-}
-
-impl Tail {
-    fn of(mut stderr: ChildStderr) -> io::Result<Self> {
-        let bytes = Arc::new(Mutex::new(Vec::new()));
-        let tail: Weak<_> = Arc::downgrade(&bytes);
-        let (reading, ended) = mpsc::channel();
-        thread(move || {
-            let _reading = reading;
-            let mut some = [0; TAIL_BYTES];
-            while let Ok(count @ 1..) = stderr.read(&mut some)
-                && let Some(tail) = tail.upgrade()
-            {
-                let mut tail = tail.lock().unwrap_or_else(PoisonError::into_inner);
-                tail.extend_from_slice(&some[..count]);
-                let surplus = tail.len().saturating_sub(TAIL_BYTES);
-                tail.drain(..surplus);
+    /// Adds a block. Of a line that is too long only one byte more than allowed is kept.
+    fn add(&mut self, block: &[u8]) {
+        for (i, part) in block.split(|byte| *byte == b'\n').enumerate() {
+            if i > 0 {
+                self.complete.push_back(std::mem::take(&mut self.unfinished));
             }
-        })?;
-        Ok(Tail { bytes, ended })
-    }
-
-    /// Returns the last line that is not blank, after the end of stderr.
-    fn last_line(&self) -> Option<String> {
-        // The channel is closed at the end. Another process may keep the pipe open.
-        let _ = self.ended.recv_timeout(GRACE);
-        let bytes = self.bytes.lock().unwrap_or_else(PoisonError::into_inner);
-        let text = String::from_utf8_lossy(&bytes);
-        text.split(['\n', '\r']).map(words).rfind(|line| !line.is_empty())
+            let room = reply::MAX_LINE_BYTES + 1 - self.unfinished.len();
+            self.unfinished.extend_from_slice(&part[..part.len().min(room)]);
+        }
     }
 }
 

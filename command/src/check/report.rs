@@ -89,10 +89,7 @@ fn cells(row: &FamilyResult, within: &str) -> [String; 5] {
     let verdict = match row.verdict {
         AnswerVerdict::WithinTolerance => within.to_string(),
         AnswerVerdict::TimedOut => "not in time".to_string(),
-        verdict @ (AnswerVerdict::Right
-        | AnswerVerdict::Refused
-        | AnswerVerdict::Wrong
-        | AnswerVerdict::Crashed) => verdict.to_string(),
+        verdict => verdict.to_string(),
     };
     let some = row.verdict > AnswerVerdict::WithinTolerance && row.count < row.cases;
     let of = if some { format!(": {} of {}", row.count, row.cases) } else { String::new() };

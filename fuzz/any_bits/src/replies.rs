@@ -1,66 +1,19 @@
 //! Properties of `contact check` for arbitrary answers of a program.
 
 use crate::bytes::Bytes;
+use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::check::{Answer, AnswerVerdict, Family, Problem, Reply, check, problems};
 use spring_mass_contact_cli::reply;
 use std::convert::Infallible;
 use std::sync::LazyLock;
 
-const KEYS: [&str; 14] = [
-    "id",
-    "deflection",
-    "contact_force",
-    "penetration",
-    "status",
-    "error",
-    "used",
-    "steps",
-    "stiffness",
-    "mass",
-    "gravity",
-    "free_length",
-    "height",
-    "penalty",
-];
+const KEYS: [&str; 6] = ["id", "penetration", "status", "error", "steps", "used"];
 
-/// Texts in place of a value; some are not JSON.
-const VALUES: [&str; 36] = [
-    "1",
-    "0",
-    "-0",
-    "-1",
-    "0.05",
-    "4.81",
-    "1e-9",
-    "-1E+3",
-    "1e400",
-    "1e-400",
-    "1e4095",
-    "1e5000",
-    "1e100000",
-    "1e99999999999",
-    "\"1/3\"",
-    "\"-1/2\"",
-    "\"1/0\"",
-    "\" 1 \"",
-    "\"nan\"",
-    "\"\"",
-    "null",
-    "true",
-    "false",
-    "NaN",
-    "-inf",
-    "Infinity",
-    "nan(0x1)",
-    "[]",
-    "{}",
-    "[1]",
-    "\"contact-1\"",
-    "\"\\u0000\"",
-    "\"\\ud800\"",
-    "01",
-    "1.",
-    "--1",
+/// Values, or the contents of strings; some are not JSON.
+const VALUES: [&str; 32] = [
+    "1", "0", "-0", "-1", "0.05", "4.81", "1e-9", "-1E+3", "1e400", "1e-400", "1e4095", "1e5000", "1e100000",
+    "1/3", "1/0", " 1 ", "nan", "", "null", "true", "false", "NaN", "-inf", "Infinity", "nan(0x1)", "[]",
+    "{}", "[1]", r"\u0000", r"\ud800", "01", "--1",
 ];
 
 /// Returns a line: arbitrary bytes, or an object with most of the required keys.
@@ -90,7 +43,9 @@ fn object(bytes: &mut Bytes, depth: usize) -> String {
         }
     }
     for _ in 0..bytes.below(6) {
-        let key = *bytes.pick(&KEYS);
+        let parameters = SpringMass::KEYS.into_array();
+        let key =
+            *bytes.pick(&[&KEYS[..], &parameters, &["penalty", "deflection", "contact_force"]].concat());
         let value = match key {
             "used" if depth > 0 => object(bytes, depth - 1),
             "steps" if depth > 0 => {
@@ -107,7 +62,8 @@ fn object(bytes: &mut Bytes, depth: usize) -> String {
 
 fn number(bytes: &mut Bytes) -> String {
     match bytes.below(4) {
-        0 | 1 => bytes.pick(&VALUES).to_string(),
+        0 => bytes.pick(&VALUES).to_string(),
+        1 => format!("\"{}\"", bytes.pick(&VALUES)),
         2 => format!("{:?}", f64::from_bits(bytes.bits())),
         _ => format!("{:?}", f64::from(bytes.byte() as i8) / 100.0),
     }
@@ -152,9 +108,7 @@ pub fn read(bytes: &[u8]) {
         };
         assert!(fits, "{reply:?} is {verdict:?}");
     }
-    let summary = report.summary();
-    let counted = summary.right + summary.within_tolerance + summary.wrong + summary.refused;
-    assert_eq!((counted, report.families().iter().map(|row| row.cases).sum()), (many, many));
+    assert_eq!((report.cases(), report.families().iter().map(|row| row.cases).sum()), (many, many));
     report.identified_mistake();
     report.holds();
 }

@@ -56,57 +56,43 @@ fn assert_rounded_once_is_right(problem: &Problem) {
     );
 }
 
-/// An error equal to the tolerance is accepted, a slightly larger one is not: u and N each on its own scale.
+/// An error equal to the tolerance is accepted, a slightly larger one is not: u, N and the penetration, which is that
+/// of u, each on its own scale.
 #[test]
 fn the_tolerance_is_the_border() {
     let problem = &problems(1, 1, &[Family::Contact])[0];
     let SpringMass { c, .. } = &problem.system;
     let [gap, weight] = [system::gap(&problem.system), system::weight(&problem.system)];
-    let scales = [&gap + &weight / c, &weight + c * &gap];
+    let scales = [&gap + &weight / c, &weight + c * &gap, &gap + &weight / c];
     for (i, factor, verdict) in [
         (0, "1", AnswerVerdict::WithinTolerance),
         (0, "-1", AnswerVerdict::WithinTolerance),
-        (0, "1.0000001", AnswerVerdict::Wrong),
         (0, "-1.0000001", AnswerVerdict::Wrong),
         (1, "1", AnswerVerdict::WithinTolerance),
         (1, "1.0000001", AnswerVerdict::Wrong),
-        (1, "-1.0000001", AnswerVerdict::Wrong),
+        (2, "1", AnswerVerdict::Right),
+        (2, "-1", AnswerVerdict::Right),
+        (2, "-1.01", AnswerVerdict::Wrong),
     ] {
-        let mut answer = right(problem);
-        let number_of = if i == 0 { &mut answer.deflection } else { &mut answer.contact_force };
-        *number_of = number_of.take().map(|x| x + number(factor) * number(TOLERANCE) * &scales[i]);
+        let Answer { mut deflection, mut contact_force, .. } = right(problem);
+        let mut p = deflection.as_ref().map(|u| contact::penetration(&problem.system, u));
+        let changed = [&mut deflection, &mut contact_force, &mut p][i].as_mut().unwrap();
+        *changed = &*changed + number(factor) * number(TOLERANCE) * &scales[i];
+        let penetration = (i == 2).then_some(p);
+        let answer = Answer { deflection, contact_force, penetration, ..Answer::default() };
         let assessment = assess(problem, answer, TOLERANCE);
         assert_eq!(assessment.verdict, verdict, "{i}, {factor}");
-        assert_eq!(assessment.error(), Some(&(number(factor) * number(TOLERANCE)).abs()));
+        let error = if i < 2 { (number(factor) * number(TOLERANCE)).abs() } else { Exact::zero() };
+        assert_eq!(assessment.error(), Some(&error));
     }
-}
-
-/// A penetration is compared on the scale of lengths, or with the rounding error of that of u.
-#[test]
-fn a_penetration_is_that_of_the_deflection() {
-    let problem = &problems(1, 1, &[Family::Contact])[0];
-    let SpringMass { c, .. } = &problem.system;
-    let scale = system::gap(&problem.system) + system::weight(&problem.system) / c;
-    let verdict = |off: &str| {
-        let exact = right(problem);
-        let p = contact::penetration(&problem.system, exact.deflection.as_ref().unwrap());
-        let said = p + number(off) * number(TOLERANCE) * &scale;
-        let answer = Answer { penetration: Some(Some(said)), ..exact };
-        assess(problem, answer, TOLERANCE).verdict
-    };
-    assert_eq!(["0", "1", "-1"].map(verdict), [AnswerVerdict::Right; 3]);
-    assert_eq!(["1.01", "-1.01"].map(verdict), [AnswerVerdict::Wrong; 2]);
-    // If the error of u is the tolerance, so is that of the penetration.
-    let [u, n] = [
-        right(problem).deflection.unwrap() + number(TOLERANCE) * &scale,
-        right(problem).contact_force.unwrap(),
-    ];
+    // The penetration is that of a deflection whose error is the tolerance.
+    let u = right(problem).deflection.unwrap() + number(TOLERANCE) * &scales[0];
     let own = contact::penetration(&problem.system, &u);
-    let said = |p: Exact| {
-        let answer = Answer { penetration: Some(Some(p)), ..Answer::new(u.clone(), n.clone()) };
-        assess(problem, answer, TOLERANCE).verdict
+    let verdict = |p: &Exact| {
+        let answer = Answer { deflection: Some(u.clone()), ..right(problem) };
+        assess(problem, Answer { penetration: Some(Some(p.clone())), ..answer }, TOLERANCE).verdict
     };
-    assert_eq!([said(own.clone()), said(-own)], [AnswerVerdict::WithinTolerance, AnswerVerdict::Wrong]);
+    assert_eq!([&own, &-&own].map(verdict), [AnswerVerdict::WithinTolerance, AnswerVerdict::Wrong]);
 }
 
 /// The plane counts as active if |N| exceeds the tolerance; another state is wrong if the error of N exceeds
@@ -160,68 +146,58 @@ fn the_penalty_that_was_used_is_the_one_that_counts() {
 #[test]
 fn findings_describe_the_error() {
     let problem = &problems(1, 1, &[Family::Contact])[0];
-    let finding = |change: &dyn Fn(&mut Answer)| {
+    type Change = fn(&mut Answer);
+    let wrong: [(&str, Change); 6] = [
+        ("its deflection is not a number", |answer| answer.deflection = None),
+        ("its contact force is not a number", |answer| answer.contact_force = None),
+        ("its penetration is not a number", |answer| answer.penetration = Some(None)),
+        ("its penetration is 0.1, but that of its", |answer| answer.penetration = Some(Some(number("0.1")))),
+        ("it used a value for height = ", |answer| answer.used.system.h = Some(None)),
+        ("it used stiffness = 0 instead of 30", |answer| answer.used.system.c = Some(Some(Exact::zero()))),
+    ];
+    for (finding, change) in wrong {
         let mut answer = right(problem);
         change(&mut answer);
-        let assessment = assess(problem, answer, TOLERANCE);
-        (assessment.verdict, assessment.finding.unwrap_or_default())
-    };
-    let wrong = |change: &dyn Fn(&mut Answer), text: &str| {
-        let (verdict, finding) = finding(change);
-        assert!(verdict == AnswerVerdict::Wrong && finding.contains(text), "{verdict}: {finding}");
-    };
-    // Just beyond the tolerance.
-    let more = |x: &Exact| Some(Some(x * number("1.0000011")));
-    let system = &problem.system;
-    wrong(&|answer| answer.deflection = None, "its deflection is not a number");
-    wrong(&|answer| answer.contact_force = None, "its contact force is not a number");
-    wrong(
-        &|answer| answer.contact_force = Some(Exact::zero()),
-        "according to its answer the mass is separated; exactly, the",
-    );
-    wrong(
-        &|answer| answer.contact_force = Some(number("-9")),
-        "according to its answer the plane pulls; exactly, the plane p",
-    );
-    wrong(
-        &|answer| answer.penetration = Some(Some(number("0.1"))),
-        "its penetration is 0.1, but that of its",
-    );
-    wrong(&|answer| answer.penetration = Some(None), "its penetration is not a number");
-    wrong(&|answer| answer.used.system.c = more(&system.c), "used stiffness =");
-    wrong(&|answer| answer.used.system.m = more(&system.m), "used mass =");
-    wrong(&|answer| answer.used.system.g = more(&system.g), "used gravity =");
-    wrong(&|answer| answer.used.system.l = more(&system.l), "used free_length =");
-    wrong(&|answer| answer.used.system.h = more(&system.h), "used height =");
-    wrong(&|answer| answer.used.system.h = Some(None), "used a value for height =");
-    let zero = |answer: &mut Answer| answer.used.system.c = Some(Some(Exact::zero()));
-    let mut none = right(problem);
-    zero(&mut none);
-    let assessment = assess(problem, none, "2");
-    assert_eq!(assessment.finding.as_deref(), Some("it used stiffness = 0 instead of 30"));
-    let same = finding(&|answer| answer.used.system.c = Some(Some(system.c.clone())));
-    assert_eq!(same, (AnswerVerdict::Right, String::new()));
+        // c = 0 differs from 30 by less than this tolerance, but is not positive.
+        let assessment = assess(problem, answer, if finding.ends_with("30") { "2" } else { TOLERANCE });
+        assert_eq!(assessment.verdict, AnswerVerdict::Wrong, "{finding}");
+        assert!(assessment.finding.as_ref().unwrap().starts_with(finding), "{assessment:?}");
+    }
+    for (i, key) in SpringMass::KEYS.into_array().into_iter().enumerate() {
+        // The value of the problem, and just beyond the tolerance.
+        let finding = |factor: &str| {
+            let parameters = SpringMass::KEYS.zip(problem.system.as_ref());
+            let used = parameters.map(|(other, x)| (*other == key).then(|| Some(*x * number(factor))));
+            let mut answer = right(problem);
+            answer.used.system = used;
+            assess(problem, answer, TOLERANCE).finding
+        };
+        assert_eq!(finding("1"), None, "{i}");
+        assert!(finding("1.0000011").unwrap().starts_with(&format!("it used {key} = ")), "{key}");
+    }
 }
 
 /// Rounding to single precision changes the gap H − l; the answer is assessed with the parameters used.
 #[test]
 fn an_answer_is_compared_with_the_method_that_it_used() {
     let all = problems(1, 20, &[Family::Far]);
-    let single = |problem: &Problem, says_so: bool| {
+    let single = |problem: &Problem| {
         let used = problem.system.map(|x| x.to_f32().unwrap().to_exact().unwrap());
         let exact = right(&Problem { system: used.clone(), ..problem.clone() });
         let single = |x: Option<Exact>| x.map(|x| x.to_f32().unwrap().to_exact().unwrap());
         let [u, n] = [exact.deflection, exact.contact_force].map(single);
         let mut answer = Answer { deflection: u, contact_force: n, ..Answer::default() };
-        if says_so {
-            answer.used.system = used.map(|x| Some(Some(x.clone())));
-        }
+        answer.used.system = used.map(|x| Some(Some(x.clone())));
         answer
     };
-    let report = run(&all, |problem| single(problem, true));
+    let report = run(&all, single);
     assert_eq!(report.summary(), VerdictCounts { within_tolerance: 20, ..VerdictCounts::default() });
-    let report = run(&all, |problem| single(problem, false));
-    assert_eq!(report.identified_mistake().unwrap().name, "it computes in single precision");
+}
+
+/// Returns the right answer with this multiple of u.
+fn deflected(problem: &Problem, factor: &str) -> Answer {
+    let answer = right(problem);
+    Answer { deflection: answer.deflection.map(|u| u * number(factor)), ..answer }
 }
 
 /// Every reply has its own count, and only a right answer passes.
@@ -229,11 +205,7 @@ fn an_answer_is_compared_with_the_method_that_it_used() {
 fn every_reply_is_counted() {
     let all = problems(1, 6, &[Family::Stiff]);
     let replies = |problem: &Problem| {
-        let answer = |off: &str| {
-            let mut answer = right(problem);
-            answer.deflection = answer.deflection.map(|u| u * number(off));
-            Reply::Answered(Box::new(answer))
-        };
+        let answer = |factor| Reply::Answered(Box::new(deflected(problem, factor)));
         match problem.id.as_str() {
             "stiff-1" => answer("1"),
             "stiff-2" => answer("1.0000001"),
@@ -247,12 +219,7 @@ fn every_reply_is_counted() {
         check(problems, &number(TOLERANCE), |problem| Ok::<_, Infallible>(replies(problem))).unwrap()
     };
     // The wrong answer with the larger error is shown.
-    let off = |problem: &Problem| {
-        let mut answer = right(problem);
-        answer.deflection =
-            answer.deflection.map(|u| u * number(if problem.id == "stiff-4" { "3" } else { "2" }));
-        answer
-    };
+    let off = |problem: &Problem| deflected(problem, if problem.id == "stiff-4" { "3" } else { "2" });
     assert_eq!(run(&all, off).families()[0].worst.problem.id, "stiff-4");
     let report = judged(&all);
     let one_each =
@@ -271,13 +238,13 @@ fn every_reply_is_counted() {
 #[test]
 fn a_program_that_never_answers_is_not_restarted() {
     let all = default_problems();
-    let mut asked = 0;
-    let mut silent = |answers_at: usize, other: Reply| {
-        asked = 0;
+    let silent = |answers_at: usize, other: Reply| {
+        let mut asked = 0;
         let report = check(&all, &number(TOLERANCE), |problem| {
             asked += 1;
-            let answered = || Reply::Answered(Box::new(right(problem)));
-            Ok::<_, Infallible>(if asked == answers_at { answered() } else { other.clone() })
+            let is_answered = asked == answers_at;
+            let answer = is_answered.then(|| Reply::Answered(Box::new(right(problem))));
+            Ok::<_, Infallible>(answer.unwrap_or_else(|| other.clone()))
         });
         let report = report.unwrap();
         (report.given_up, report.results.len())
@@ -296,74 +263,33 @@ fn a_program_that_never_answers_is_not_restarted() {
     assert!(!three.unwrap().given_up, "there was nothing more to ask");
 }
 
-/// Without a force and a gap the errors are measured in units.
+/// Without a force and a gap errors are measured in units. If f64 overflows, rounding explains nothing. For l = 10⁴ m
+/// the rounding error is 10⁻¹² m, which ε = 4.5e17 N/m turns into a million N: less than the 2e8 N of c (|l| + |H|), but
+/// above the tolerance. With lengths near 10¹² m it is larger than u, but explains errors only up to 10⁻⁶ of 1 + 2 m.
 #[test]
-fn nothing_can_be_measured_by_nothing() {
-    let [c, m] = ["5", "3"].map(number);
-    let system = SpringMass { c, m, g: Exact::zero(), l: number("2"), h: number("2") };
-    let problem = Problem { system, ..problems(1, 1, &[Family::Contact]).remove(0) };
-    for (u, verdict) in [
-        ("0", AnswerVerdict::Right),
-        ("1e-6", AnswerVerdict::WithinTolerance),
-        ("2e-6", AnswerVerdict::Wrong),
+fn rounding_explains_errors_up_to_a_millionth() {
+    let (exact, f64_range) = (["5", "3", "0", "2", "2"], ["1e10", "1e8", "9.81", "1e8", "2e8"]);
+    let (stiff, far) =
+        (["1e4", "1", "2", "1e4", "10000.0001"], ["1", "1", "2", "1000000000000.3", "1000000000001.3"]);
+    for (parameters, penalty, tolerance, [off_u, off_n], verdict) in [
+        (exact, None, "1e-6", ["0", "0"], AnswerVerdict::Right),
+        (exact, None, "1e-6", ["1e-6", "0"], AnswerVerdict::WithinTolerance),
+        (exact, None, "1e-6", ["2e-6", "0"], AnswerVerdict::Wrong),
+        (f64_range, Some("1e305"), "1e-6", ["0", "0"], AnswerVerdict::Right),
+        (f64_range, Some("1e305"), "1e-6", ["1e7", "0"], AnswerVerdict::Wrong),
+        (stiff, Some("4.5e17"), "1e-6", ["0", "1000"], AnswerVerdict::Wrong),
+        (far, None, "1e-30", ["3e-6", "0"], AnswerVerdict::Right),
+        (far, None, "1e-30", ["3.0000003e-6", "0"], AnswerVerdict::Wrong),
     ] {
-        let report = run(std::slice::from_ref(&problem), |_| Answer::new(number(u), Exact::zero()));
-        assert_eq!(report.results[0].assessment.verdict, verdict, "{u}");
+        let penalty = penalty.map(number);
+        let problem = Problem { penalty, ..problem("own", Family::Contact, parameters) };
+        let [u, n] = solution(problem.system.clone(), problem.penalty.clone());
+        let assessment = assess(&problem, Answer::new(u + number(off_u), n + number(off_n)), tolerance);
+        assert_eq!(assessment.verdict, verdict, "{parameters:?}: {off_u}, {off_n}");
+        let says_so = assessment.finding.as_deref() == Some("within the rounding error of f64");
+        let is_open = [stiff, far].contains(&parameters);
+        assert_eq!(says_so, is_open && verdict == AnswerVerdict::Wrong, "{parameters:?}");
     }
-}
-
-/// If f64 overflows, rounding explains nothing.
-#[test]
-fn an_overflowing_mistake_explains_no_answer() {
-    let problem = Problem { penalty: Some(number("1e305")), ..problems(1, 1, &[Family::Huge]).remove(0) };
-    for (off, verdict) in [("1", AnswerVerdict::Right), ("1.1", AnswerVerdict::Wrong)] {
-        let mut answer = right(&problem);
-        answer.deflection = answer.deflection.map(|u| u * number(off));
-        let assessment = assess(&problem, answer, TOLERANCE);
-        assert_eq!(assessment.verdict, verdict);
-    }
-}
-
-/// For l = 10⁴ m the rounding error is 10⁻¹² m, which ε = 4.5e17 N/m turns into a million N: less than the
-/// 2e8 N of c (|l| + |H|).
-#[test]
-fn the_allowed_rounding_error_is_stated() {
-    let [c, m, g, l, h] = ["1e4", "1", "2", "1e4", "10000.0001"].map(number);
-    let system = SpringMass { c, m, g, l, h };
-    let problem =
-        Problem { system, penalty: Some(number("4.5e17")), ..problems(1, 1, &[Family::Far]).remove(0) };
-    let mut answer = right(&problem);
-    answer.contact_force = answer.contact_force.map(|n| n + number("1000"));
-    let assessment = assess(&problem, answer, TOLERANCE);
-    assert_eq!(assessment.verdict, AnswerVerdict::Wrong);
-    assert_eq!(assessment.finding.as_deref(), Some("within the rounding error of f64"));
-}
-
-/// |l| + |H| + |m g/c| in m, and |m g| + |c (H − l)| + c (|l| + |H|) in N.
-#[test]
-fn rounding_errors_are_compared_with_the_sizes_of_a_system() {
-    let [c, m, g, l, h] = [4, 1, -10, -1, 3].map(Exact::from);
-    let sizes = assessment::sizes(&SpringMass { c, m, g, l, h });
-    assert_eq!(sizes, ["6.5", "42"].map(number));
-    let one = Ball::from_rounded(1.0);
-    let radius = one.radius().to_exact().unwrap();
-    assert!(
-        assessment::is_within(&one, &radius) && !assessment::is_within(&one, &(radius * number("0.999")))
-    );
-}
-
-/// A family without answers is not known to be right.
-#[test]
-fn a_family_without_an_answer_does_not_hold() {
-    let refusing = |refused: &'static str| {
-        let ask = |problem: &Problem| {
-            let refuses = problem.id.starts_with(refused);
-            let answer = || Reply::Answered(Box::new(right(problem)));
-            Ok::<_, Infallible>(if refuses { Reply::Refused("no".into()) } else { answer() })
-        };
-        check(&default_problems(), &number(TOLERANCE), ask).unwrap().holds()
-    };
-    assert_eq!(["stiff-1", "stiff", "none"].map(refusing), [true, false, true]);
 }
 
 /// R = −2 on a scale of two million.
@@ -373,18 +299,6 @@ fn a_state_decides_if_its_error_exceeds_the_tolerance() {
     let report = run(&[separated], right);
     let least = |tolerance: &str| report.least_deciding(State::Separated, &number(tolerance));
     assert_eq!(["1e-6", "9.9e-7"].map(least), [None, Some(number("1e-6"))]);
-}
-
-/// With lengths near 10¹² m the rounding error of u = 1 m is larger; the scale is 1 + 2 m.
-#[test]
-fn an_error_that_rounding_explains_is_at_most_that_of_a_diagnosis() {
-    let problem = problem("own", Family::Contact, ["1", "1", "2", "1000000000000.3", "1000000000001.3"]);
-    let is_wrong = |error: &str| {
-        let answer = Answer::new(number("1") + number("3") * number(error), number("1"));
-        let judged = assess(&problem, answer, "1e-30");
-        judged.verdict == AnswerVerdict::Wrong
-    };
-    assert_eq!(["1e-6", "1.0000001e-6"].map(is_wrong), [false, true]);
 }
 
 /// A parameter that differs by exactly the tolerance is that of the problem, one further off is not.
@@ -400,10 +314,8 @@ fn a_parameter_is_taken_up_to_the_tolerance() {
 #[test]
 fn results_are_kept_in_bounded_memory() {
     let report = run(&problems(1, 1100, &[Family::Contact]), |problem| {
-        let Answer { deflection, contact_force, .. } = right(problem);
         let is_late = ["contact-1050", "contact-1060"].contains(&problem.id.as_str());
-        let off = number(if is_late { "2" } else { "1" });
-        Answer { deflection: deflection.map(|u| u * off), contact_force, ..Answer::default() }
+        deflected(problem, if is_late { "2" } else { "1" })
     });
     assert_eq!((report.results.len(), report.cases()), (1001, 1100));
     let row = &report.families()[0];

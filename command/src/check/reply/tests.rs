@@ -40,36 +40,17 @@ const N: &str = r#""contact_force": 2"#;
 
 #[test]
 fn numbers_are_read_by_their_digits() {
-    let third = exact("1/3");
-    assert_eq!(numbers("0.1", r#""1/3""#), [exact("1/10"), third]);
-    assert_eq!(numbers("5e-324", "-1E+3"), [exact("5e-324"), exact("-1000")]);
+    assert_eq!(numbers("0.1", r#""1/3""#), [exact("1/10"), exact("1/3")]);
     assert_eq!(numbers(r#"" 7 ""#, r#""\u0037.5""#), [exact("7"), exact("7.5")]);
     let long = format!("0.{}1", "0".repeat(400));
     assert_eq!(numbers(&long, "1e4000"), [exact(&long), exact("1e4000")]);
-    assert_eq!(numbers("-0", "-0.0e9"), [exact("0"), exact("0")]);
     assert_eq!(numbers("0x1.8p-3", r#""-0X1E""#), [exact("3/16"), exact("-30")]);
     assert_eq!(numbers("1", "0x1p4000")[1], Some(Exact::power_of_two(4000)));
-    let least = Some(Exact::power_of_two(-1074));
-    assert_eq!(numbers("0x0.0000000000001p-1022", "0x1e9999"), [least, exact("2005401")]);
 }
 
 #[test]
 fn non_numeric_values_are_accepted_as_answers() {
-    for word in [
-        "NaN",
-        "nan",
-        "-nan",
-        "+NAN",
-        "-nan(ind)",
-        "nan(0x7ff)",
-        "Inf",
-        "inf",
-        "-inf",
-        "+inf",
-        "Infinity",
-        "-Infinity",
-        "INFINITY",
-    ] {
+    for word in ["NaN", "-nan", "+NAN", "nan(ind)", "Inf", "-inf", "+inf", "Infinity", "INFINITY"] {
         let quoted = format!("\"{word}\"");
         assert_eq!(numbers(word, "2"), [None, exact("2")], "{word}");
         assert_eq!(numbers(&quoted, word), [None, None], "{word}");
@@ -94,69 +75,46 @@ fn strings_are_left_as_they_are() {
     assert_eq!(quoted("[NaN,{inf}:-nan]"), r#"["NaN",{"inf"}:"-nan"]"#);
 }
 
+/// Each is named with its place, and a key has one value.
 #[test]
 fn an_unreadable_field_is_named() {
-    for (value, shown) in [
-        ("\"twelve\"", "twelve"),
-        ("[1]", "[1]"),
-        ("true", "true"),
-        ("{\"x\": 1}", "{\"x\": 1}"),
-        ("\"\"", ""),
+    let [x, y] = ["x".repeat(20), "y".repeat(99)];
+    let of = |rest: &str| rest.replace("UN", &format!("{U}, {N}")).replace('U', U).replace('N', N);
+    for (rest, reason) in [
+        (r#"U, "contact_force": "twelve""#, "invalid value 'twelve' for 'contact_force': "),
+        (r#"U, "contact_force": [1]"#, "invalid value '[1]' for 'contact_force': "),
+        (r#"U, "contact_force": true"#, "invalid value 'true' for 'contact_force': "),
+        (r#"U, "contact_force": {"x": 1}"#, "invalid value '{\"x\": 1}' for 'contact_force': "),
+        (r#"U, "contact_force": """#, "invalid value '' for 'contact_force': "),
+        (
+            &format!(r#"U, "contact_force": "{x}\n\u001b\u202e{y}""#),
+            &format!("invalid value '{x} \u{fffd}\u{fffd}{}…' for 'contact_force': ", &y[..16]),
+        ),
+        (r#"N, "deflection": -1e-2147483648"#, "invalid value '-1e-2147483648' for 'deflection': "),
+        (
+            r#"N, "deflection": 1e99999999999999999999"#,
+            "invalid value '1e99999999999999999999' for 'deflection': ",
+        ),
+        (r#"UN, "used": {"mass": "x"}"#, "invalid value 'x' for 'used.mass': "),
+        (r#"UN, "used": 7"#, "invalid value '7' for 'used': must be an object"),
+        (
+            r#"UN, "steps": [{UN}, {U, "contact_force": "x"}]"#,
+            "invalid value 'x' for 'steps[1].contact_force': ",
+        ),
+        (r#"UN, "steps": 7"#, "invalid value '7' for 'steps': must be an array of objects"),
+        (r#"UN, "steps": [7]"#, "invalid value '[7]' for 'steps': must be an array of objects"),
+        ("U", "the key 'contact_force' is missing"),
+        ("N", "the key 'deflection' is missing"),
+        (r#"UN, "steps": [{UN}, {N}]"#, "the key 'steps[1].deflection' is missing"),
+        ("UN, U", "the key 'deflection' used multiple times"),
+        (r#"UN, "used": {"mass": 1, "mass": 1}"#, "the key 'used.mass' used multiple times"),
     ] {
-        let reason = garbled(&format!("{U}, \"contact_force\": {value}"));
-        assert!(reason.starts_with(&format!("invalid value '{shown}' for 'contact_force': ")), "{reason}");
+        let found = garbled(&of(rest));
+        assert!(found.starts_with(reason), "{rest}: {found}");
     }
-    let out_of_range = "exponent out of range; it must lie between -100000 and 100000";
-    for value in ["1e100001", "1e-100001", "1e99999999999999999999", "-1e-2147483648"] {
-        let reason = garbled(&format!("{N}, \"deflection\": {value}"));
-        assert!(reason.starts_with(&format!("invalid value '{value}' for 'deflection': ")), "{reason}");
-        assert!(reason.ends_with(out_of_range) || reason.ends_with("no more than 4096 digits"), "{reason}");
-    }
-    let reason = garbled(&format!(
-        "{U}, \"contact_force\": \"{}\\n\\u001b\\u202e{}\"",
-        "x".repeat(20),
-        "y".repeat(99)
-    ));
-    assert!(
-        reason.contains(&format!("'{} \u{fffd}\u{fffd}{}…'", "x".repeat(20), "y".repeat(16))),
-        "{reason}"
-    );
-    assert!(
-        garbled(&format!("{U}, {N}, \"used\": {{\"mass\": \"x\"}}"))
-            .starts_with("invalid value 'x' for 'used.mass': ")
-    );
-    assert!(
-        garbled(&format!("{U}, {N}, \"used\": 7"))
-            .starts_with("invalid value '7' for 'used': must be an object")
-    );
-    assert!(
-        garbled(&format!("{U}, {N}, \"steps\": [{{{U}, {N}}}, {{{U}, \"contact_force\": \"x\"}}]"))
-            .starts_with("invalid value 'x' for 'steps[1].contact_force': ")
-    );
-    for steps in ["7", "[7]", "{}"] {
-        let reason = garbled(&format!("{U}, {N}, \"steps\": {steps}"));
-        assert_eq!(reason, format!("invalid value '{steps}' for 'steps': must be an array of objects"));
-    }
-}
-
-#[test]
-fn a_missing_field_is_named() {
-    assert_eq!(garbled(U), "the key 'contact_force' is missing");
-    assert_eq!(garbled(N), "the key 'deflection' is missing");
-    let steps = format!("{U}, {N}, \"steps\": [{{{U}, {N}}}, {{{N}}}]");
-    assert_eq!(garbled(&steps), "the key 'steps[1].deflection' is missing");
-}
-
-#[test]
-fn a_key_has_one_value() {
-    assert_eq!(garbled(&format!("{U}, {N}, {U}")), "the key 'deflection' used multiple times");
-    let used = format!("{U}, {N}, \"used\": {{\"mass\": 1, \"mass\": 1}}");
-    assert_eq!(garbled(&used), "the key 'used.mass' used multiple times");
-    let twice = format!(r#"{{"id": "a", "id": "b", {U}, {N}}}"#);
-    assert_eq!(
-        said(&twice),
-        Err("answer with the key 'id' used multiple times instead of an answer to 'a'".to_string())
-    );
+    let twice = said(format!(r#"{{"id": "a", "id": "b", {U}, {N}}}"#));
+    let reason = "answer with the key 'id' used multiple times instead of an answer to 'a'";
+    assert_eq!(twice, Err(reason.to_string()));
     answered(&format!("{U}, {N}, \"x\": 1, \"x\": 2"));
 }
 
@@ -205,14 +163,7 @@ fn an_error_is_a_refusal() {
 fn an_answer_must_have_the_id_of_its_request() {
     let answer = |id: &str| said(format!(r#"{{"id": {id}, {U}, {N}}}"#));
     assert!(matches!(answer(r#""\u0061""#), Ok(Reply::Answered(_))));
-    for (id, own) in [
-        ("\"b\"", "b"),
-        ("7", "7"),
-        ("null", "null"),
-        ("[\"a\"]", "[\"a\"]"),
-        ("\"a \"", "a"),
-        ("\"\\ud800\"", "\"\\ud800\""),
-    ] {
+    for (id, own) in [("\"b\"", "b"), ("7", "7"), ("null", "null"), ("[7]", "[7]"), ("\"a \"", "a")] {
         assert_eq!(answer(id), Err(format!("answer to '{own}' instead of an answer to 'a'")));
     }
     let long = format!("\"{}\"", "b".repeat(1000));
@@ -261,26 +212,17 @@ fn nothing_that_is_read_takes_long() {
     assert_eq!(read("{\"a\":".repeat(100_000).as_bytes(), "a"), None);
 
     let nines = "9".repeat(MAX_NUMBER_DIGITS + 1);
-    let reason = garbled(&format!("{N}, \"deflection\": {nines}"));
-    assert!(reason.ends_with("must have no more than 4096 digits"), "{reason}");
     assert_eq!(numbers(&nines[1..], "1")[0], exact(&nines[1..]));
-    for number in ["1e9999", "1E9999", "1e+9999", "1E-9999", "\"1E9999\"", "0x1p99999"] {
+    for number in [&nines, "1e9999", "1E-9999", "\"1E9999\"", "0x1p99999"] {
         let reason = garbled(&format!("{N}, \"deflection\": {number}"));
         assert!(reason.ends_with("must have no more than 4096 digits"), "{reason}");
-    }
-    for number in ["0e-4000", "1e4000", "0.1e-4000"] {
-        let step = format!("{{\"deflection\": {number}, \"contact_force\": {number}}}");
-        let steps = |count| format!("{U}, {N}, \"steps\": [{}]", vec![step.as_str(); count].join(","));
-        assert_eq!(answered(&steps(500)).steps.len(), 500);
-        let reason = garbled(&steps(600));
-        assert!(reason.contains("no more than 4194304 digits together"), "{reason}");
     }
     // 1023 numbers of 4096 digits, 4094 in the last one, and those of U and N.
     let step = |n: &str| format!("{{\"deflection\": 1e4090, \"contact_force\": {n}}}");
     let steps =
         |last| format!("{U}, {N}, \"steps\": [{}{}]", (step("1e4090") + ", ").repeat(511), step(last));
     assert_eq!(answered(&steps("1e4088")).steps.len(), 512);
-    garbled(&steps("1e4089"));
+    assert!(garbled(&steps("1e4089")).contains("no more than 4194304 digits together"));
     let step = "{\"deflection\": 1, \"contact_force\": 1}";
     let steps = |count| format!("{U}, {N}, \"steps\": [{}]", vec![step; count].join(","));
     assert_eq!(answered(&steps(MAX_STEPS)).steps.len(), MAX_STEPS);
