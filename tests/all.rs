@@ -27,6 +27,8 @@ mod coqc;
 mod examples;
 #[cfg(feature = "prover")]
 mod files;
+#[cfg(all(feature = "prover", feature = "serde"))]
+mod forged;
 #[cfg(feature = "prover")]
 mod mutation;
 #[cfg(feature = "prover")]

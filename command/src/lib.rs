@@ -16,9 +16,6 @@ mod solve;
 mod sweep;
 mod verify;
 
-// Tests with arbitrary bits read replies.
-#[doc(hidden)]
-pub use check::reply;
 use clap::{CommandFactory, Parser, Subcommand};
 use output::{Exit, Failure};
 use std::process::ExitCode;
