@@ -91,51 +91,6 @@ fn direct_rationals_are_their_own_bounds() {
     });
 }
 
-/// R = 0 in rationals, while floats round m g and c (H − l) differently: m = c |a − b|, g = ±(a + b), H = a²,
-/// l = b², where a is a multiple of a power of two. Each parameter fits the bits of `like`; the products and
-/// H − l need not, and three times in four they are rounded alike.
-fn grazing_but_for_rounding<T: Float>(bits: u32, like: T) -> impl Strategy<Value = SpringMass<Exact>> {
-    let odd = |bits: u32| (0..1 << (bits - 1)).prop_map(|n| int(2 * n + 1));
-    let half = bits / 2 - 2;
-    let systems = (odd(half), odd(half), odd(bits / 4), 3..=bits as i32 / 4).prop_map(|(a, b, c, shift)| {
-        let a = a * Exact::power_of_two(shift);
-        let (sum, m) = (&a + &b, &c * (&a - &b).abs());
-        SpringMass { g: if a < b { -sum } else { sum }, h: &a * &a, l: &b * &b, c, m }
-    });
-    systems.prop_filter("rounded differently", move |s| {
-        !system::reaction(&s.map(|x| like.round_from_exact(x).unwrap())).is_zero()
-    })
-}
-
-/// At grazing there is no force, not even one of an ulp.
-fn grazing_has_no_force_at_all<T: Float>(s: &SpringMass<Exact>, like: &T) {
-    let system = s.map(|x| like.round_from_exact(x).unwrap());
-    assert_eq!(system.map(exact), *s, "the parameters fit");
-    let [eps, tolerance] = [(); 2].map(|()| like.clone());
-    let case = Case { system, eps, start: T::zero(), tolerance };
-    for (plane, method, answer) in case.solutions(3) {
-        assert_eq!(answer.state, State::Grazing);
-        if matches!(method, Method::Penalty { .. }) {
-            continue;
-        }
-        let none = Interval { lower: T::zero(), upper: T::zero() };
-        assert_eq!((&answer.bounds.penetration, &answer.bounds.contact_force), (&none, &none));
-        if method == Method::Lagrange {
-            assert_eq!((answer.contact_force, answer.multiplier), (T::zero(), Some(T::zero())), "{plane:?}");
-        }
-    }
-}
-
-#[test]
-fn grazing_has_no_force_in_f32() {
-    holds(grazing_but_for_rounding(24, 1f32), |s| grazing_has_no_force_at_all(s, &1f32));
-}
-#[test]
-fn grazing_has_no_force_in_f64_and_mpfr() {
-    holds(grazing_but_for_rounding(53, 1f64), |s| grazing_has_no_force_at_all(s, &1f64));
-    holds(grazing_but_for_rounding(40, float(40)), |s| grazing_has_no_force_at_all(s, &float(40)));
-}
-
 // Arguments.
 
 /// A parameter: its name, an accessor, and whether it must be positive.

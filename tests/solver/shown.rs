@@ -138,37 +138,12 @@ fn scientific_notation_is_that_of_the_machine() {
     });
 }
 
-/// A third of an integer is never a tie.
 #[test]
-fn scientific_notation_of_a_fraction_is_nearest() {
-    holds((nonzero(WIDE), 0usize..30), |(x, decimals)| {
-        let third = x / int(3);
-        let (text, more) = (format!("{third:.decimals$e}"), format!("{third:.60e}"));
-        let (digits, order) = text.split_once('e').unwrap();
-        let unit = q(&format!("1e{order}"));
-        let off = |text: &str| (q(text) - &third).abs();
-        assert!(int(2) * off(&text) * power(&int(10), *decimals as u32) <= unit);
-        assert!(off(&more) <= off(&text));
-        assert_eq!(digits.split_once('.').map_or(0, |(_, decimals)| decimals.len()), *decimals);
-    });
-}
-
-#[test]
-fn scientific_notation_of_special_values() {
-    for x in [0.0, 1.0, -1.0, 99.5, 2.5, 3.5, 1e300, 999999.0] {
-        for decimals in 0..4 {
-            assert_eq!(format!("{:.decimals$e}", exact(&x)), format!("{x:.decimals$e}"));
-        }
-    }
-    let x = q("9.96");
-    assert_eq!(format!("{x:e} {x:.1e} {x:.2e} {x:+10.0e}|"), "9.96e0 1.0e1 9.96e0       +1e1|");
-    let [zero, seventh] = [q("0"), q("1/7")];
+fn scientific_notation_has_a_sign_and_a_width() {
+    let [x, zero, seventh] = ["9.96", "0", "1/7"].map(q);
+    assert_eq!(format!("{x:e} {x:.1e} {x:+10.0e}|"), "9.96e0 1.0e1       +1e1|");
     assert_eq!(format!("{zero:e} {zero:.2e} {seventh:e}"), "0e0 0.00e0 1.4285714285714286e-1");
-    // Seventeen digits that round up to a power of ten.
-    let nines = int(1) - int(1) / (int(3) * q("1e20"));
-    assert_eq!(format!("{nines:e}"), "1.0000000000000000e0");
-    let zero = int(0).to_mpfr(53);
-    assert_eq!(format!("{zero:e} {zero:.1e} {:e}", Mpfr::rounded(9, f64::INFINITY)), "0e0 0.0e0 inf");
+    assert_eq!(format!("{:e}", Mpfr::rounded(9, f64::INFINITY)), "inf");
     // As a rational it would be longer than the memory.
     let tiny = Mpfr::from(MpfrFloat::with_val(53, 1) >> 1_000_000_000);
     assert!(format!("{tiny:.3e}").ends_with("e-301029996"), "{tiny:.3e}");
