@@ -91,6 +91,25 @@ fn direct_rationals_are_their_own_bounds() {
     });
 }
 
+/// m g = c (a − b) (a + b) = c (a² − b²) = c (H − l), where f32 rounds the products and H − l differently.
+#[test]
+fn grazing_has_no_force_however_it_is_rounded() {
+    let mut rounded = 0;
+    for (n, b) in (2001..4001).step_by(100).flat_map(|n| (1001..2001).step_by(50).map(move |b| (n, b))) {
+        let a = 64 * n;
+        let system = SpringMass { c: 3, m: 3 * (a - b), g: a + b, l: b * b, h: 1 };
+        let system = SpringMass { h: int(a) * int(a), ..system.map(|x| int(*x)) };
+        let floats = system.map(|x| x.to_f32().unwrap());
+        assert_eq!(floats.map(exact), system, "the parameters fit");
+        rounded += u32::from(!system::reaction(&floats).is_zero());
+        for (_, solve) in planes() {
+            let answer = solve(&floats, &Method::Lagrange).unwrap();
+            assert_eq!((answer.state, answer.contact_force), (State::Grazing, 0.0));
+        }
+    }
+    assert!(rounded > 100, "{rounded}");
+}
+
 // Arguments.
 
 /// A parameter: its name, an accessor, and whether it must be positive.
