@@ -6,10 +6,9 @@ use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::number::{
     Exact, ExactText, MAX_EXPONENT, Mpfr, NumberSystem, ParseError, RangeError,
 };
-use spring_mass_contact::rug::float::Round;
 use spring_mass_contact::rug::ops::Pow;
 use spring_mass_contact::rug::{Integer, Rational};
-use spring_mass_contact::solver::{Interval, ReadError};
+use spring_mass_contact::solver::ReadError;
 
 /// Returns a text of arbitrary bytes, or of the characters of decimal or of hexadecimal numbers.
 fn text(bytes: &mut Bytes) -> String {
@@ -124,12 +123,6 @@ pub fn parse(bytes: &[u8]) {
     }
     let precision = 2 + bytes.below(63) as u32;
     assert_eq!(Mpfr::parse(&text, precision).map(drop), read.clone().map(drop));
-    if let Ok(x) = &read
-        && bytes.one_in(16)
-        && x.bit_length() < 4000
-    {
-        written(x, precision);
-    }
     if let Ok(system) = text.parse::<NumberSystem>() {
         assert_eq!(system.to_string().parse(), Ok(system));
     }
@@ -158,31 +151,4 @@ fn nearest<T: ExactText + PartialEq + std::fmt::Debug>(
         }
         Err(other) => panic!("{other:?}"),
     }
-}
-
-/// Asserts that a formatted number parses to the same number, or to one in the direction of rounding.
-fn written(x: &Exact, precision: u32) {
-    assert_eq!(x.to_string().parse().as_ref(), Ok(x));
-    let digits = 1 + precision as usize % 20;
-    let [down, near, up] = [Round::Down, Round::Nearest, Round::Up].map(|round| {
-        let text = x.decimal(digits, round);
-        let mantissa = text.split('e').next().expect("a text");
-        let significant = mantissa.trim_start_matches(['-', '0', '.']).trim_end_matches(['0', '.']);
-        assert!(significant.bytes().filter(u8::is_ascii_digit).count() <= digits, "{text}");
-        text.parse::<Exact>().expect("a number")
-    });
-    assert!(down <= *x && *x <= up && down <= near && near <= up);
-    let rounded = x.to_mpfr(precision);
-    assert_eq!(Mpfr::parse(&rounded.text(), precision), Ok(rounded.clone()));
-    encloses(&rounded);
-    x.to_f64().iter().for_each(encloses);
-    x.to_f32().iter().for_each(encloses);
-}
-
-/// Asserts that the texts of an interval contain it.
-fn encloses<T: ExactText + Clone>(point: &T) {
-    let texts = Interval { lower: point.clone(), upper: point.clone() }.texts();
-    let [lower, upper] = texts.map(|text| text.parse::<Exact>().expect("a number"));
-    let point = point.to_exact().expect("a finite number");
-    assert!(lower <= point && point <= upper, "{lower} to {upper}");
 }
