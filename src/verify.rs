@@ -77,11 +77,6 @@ impl VerificationReport {
         !self.rows.is_empty() && self.rows.iter().all(|row| row.status != Status::Failed)
     }
 
-    /// Returns `true` if every claim is decided in each number system, and there is at least one row.
-    pub fn is_decided(&self) -> bool {
-        !self.rows.is_empty() && self.rows.iter().all(|row| row.status != Status::Undecided)
-    }
-
     /// Returns the rows of each equation.
     pub fn by_equation(&self) -> impl Iterator<Item = &[ClaimResult]> {
         self.rows.chunk_by(|a, b| a.equation == b.equation)

@@ -72,7 +72,7 @@ fn a_claim_that_fails_in_one_of_many_cases_fails() {
         *WRONG.lock().unwrap() = cases::case(SEED, index, &[]);
         let wrong = experiment("wrong", |x| Trial::Decided(WRONG.lock().unwrap().as_ref() != Some(x)));
         let report = report([exactly(&[holding()], vec![wrong])], all);
-        assert!(!report.holds() && report.is_decided());
+        assert!(!report.holds());
         let row = |name| row(&report, name, NumberSystem::Exact);
         let ClaimResult { status, decided, undecided, counterexample, .. } = row("wrong");
         assert_eq!((*status, *decided, *undecided), (Status::Failed, all, 0), "{index}");
@@ -111,7 +111,7 @@ fn a_claim_can_fail_in_one_number_system_alone() {
         assert_eq!(failed, [("zero", Some(wrong))]);
         let VerificationSummary { claims, proved, held, undecided, failed } = report.summary();
         assert_eq!([claims, proved, held, undecided, failed], [8, 0, 7, 0, 1]);
-        assert!(!report.holds() && report.is_decided());
+        assert!(!report.holds());
     }
 }
 
@@ -141,7 +141,7 @@ fn a_claim_that_no_case_decides_is_undecided() {
         let found = (row.status, row.decided, row.undecided, &row.counterexample);
         assert_eq!(found, (Status::Undecided, 0, all, &None), "{name}");
     }
-    assert!(all > 0 && report.holds() && !report.is_decided());
+    assert!(all > 0 && report.holds());
 }
 
 /// Without cases, under hypotheses that no case satisfies, and without tests: of a derivative that does not
@@ -166,14 +166,13 @@ fn a_claim_that_was_never_tested_is_undecided() {
             let found = (row.status, row.decided, row.undecided);
             assert_eq!(found, (Status::Undecided, 0, cases), "{}", row.claim);
         }
-        assert!(!report.is_decided());
     };
     untried(of(2 * BLOCK), 2 * BLOCK);
     untried(of(0), 0);
     // A report without number systems or without claims does not hold.
     for nothing in [report([], 10), report([exactly(&[], Vec::new())], 10)] {
         assert_eq!(nothing.rows, []);
-        assert!(!nothing.holds() && !nothing.is_decided());
+        assert!(!nothing.holds());
     }
     let unknown = Options { equations: vec!["1.99".to_string()], ..Options::default() };
     let unknown = verify(&unknown, &|_, _| ());
