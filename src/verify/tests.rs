@@ -243,7 +243,10 @@ fn the_worst_share_is_that_of_all_cases() {
     let all = 3 * BLOCK;
     for index in [0, BLOCK + 7, all - 1] {
         *WORST.lock().unwrap() = cases::case(SEED, index, &[]);
-        let report = report([exactly(&[], vec![experiment("measured", check)])], all);
+        let exceeded = |_: &Case<Exact>| Trial::Within { error: Exact::from(5), bound: Exact::from(4) };
+        let experiments = vec![experiment("measured", check), experiment("exceeded", exceeded)];
+        let report = report([exactly(&[], experiments)], all);
+        assert_eq!(row(&report, "exceeded", NumberSystem::Exact).status, Status::Failed);
         let row = row(&report, "measured", NumberSystem::Exact);
         assert_eq!((row.status, &row.worst), (Status::Held, &Some((0.75, "4".to_string()))), "{index}");
     }
