@@ -40,7 +40,6 @@ mod tests {
     fn shared_functions_are_those_that_every_claim_uses() {
         assert_eq!(of("1.13", &["two-forms"]), ["penalty::deflection", "penalty::deflection_divided"]);
         assert_eq!(of("1.13", &["two-forms", "rate"]), ["penalty::deflection"]);
-        assert_eq!(of("1.13", &[]), [""; 0]);
         // The rules of differentiation belong to no function.
         assert_eq!(of("1.10", &["force"]), [""; 0]);
     }
