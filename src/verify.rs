@@ -21,9 +21,9 @@ mod tests;
 
 use crate::claims::{Case, Var, claims, index_of, registry, statements};
 use crate::eval::{Balls, Point, Rationals};
-use crate::formula::{Hypothesis, Statement};
+use crate::formula::Statement;
 use crate::number::{Exact, Mpfr, NumberSystem};
-use checker::{Checker, ClaimTally, ErasedChecker};
+use checker::{Group, add_checks};
 pub use coq::coq;
 pub use experiments::{Experiment, Trial, experiments};
 use num_traits::One;
@@ -75,11 +75,6 @@ impl VerificationReport {
     /// Returns `true` if no claim failed, and there is at least one row.
     pub fn holds(&self) -> bool {
         !self.rows.is_empty() && self.rows.iter().all(|row| row.status != Status::Failed)
-    }
-
-    /// Returns `true` if every claim is decided in each number system, and there is at least one row.
-    pub fn is_decided(&self) -> bool {
-        !self.rows.is_empty() && self.rows.iter().all(|row| row.status != Status::Undecided)
     }
 
     /// Returns the rows of each equation.
@@ -233,38 +228,28 @@ mod serialize {
 /// Number of cases sampled and checked at a time.
 const BLOCK: u64 = 50;
 
-/// Number of blocks processed at a time; the tests run many windows.
-const WINDOW: usize = if cfg!(test) { 4 } else { 100 };
-
 /// Proves and checks every claim, in parallel. `progress` receives the numbers of finished and of all pieces
 /// of work.
 ///
 /// Always terminates, even for wrong formulas: a claim that is undefined, or whose evaluation panics, fails.
 pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> VerificationReport {
-    let checkers: Vec<_> = options.scalars.iter().map(|scalar| (*scalar, checks(*scalar))).collect();
-    run(&checkers, statements(), options, progress)
+    run(&groups(options), statements(), options, progress)
 }
 
-/// Runs the checkers, and proves the statements.
+/// Checks the groups, and proves the statements.
 fn run(
-    checkers: &[(NumberSystem, Box<dyn ErasedChecker>)],
+    groups: &[Group],
     mut statements: Vec<Statement>,
     options: &Options,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> VerificationReport {
     statements.retain(|statement| options.includes(statement.equation()));
     // Cases are checked while long proofs run.
-    let (mut rows, tallies): (Vec<ClaimResult>, _) =
-        rayon::join(|| statements.par_iter().map(proof).collect(), || tallies(checkers, options, progress));
+    let (mut rows, checked): (Vec<ClaimResult>, Vec<ClaimResult>) =
+        rayon::join(|| statements.par_iter().map(proof).collect(), || check(groups, options, progress));
     let unproved = rows.iter().zip(&statements).filter(|(row, _)| row.status == Status::Failed);
     let shared = shared::shared(unproved.map(|(_, statement)| statement));
-    for ((scalar, checker), tallies) in checkers.iter().zip(tallies) {
-        for (key, tally) in checker.keys().into_iter().zip(tallies) {
-            if options.includes(key.equation) {
-                rows.push(tally.into_result(key, Some(*scalar)));
-            }
-        }
-    }
+    rows.extend(checked);
     let mut places = BTreeMap::new();
     for (place, row) in rows.iter().enumerate() {
         places.entry((row.equation, row.claim)).or_insert(place);
@@ -274,50 +259,34 @@ fn run(
     VerificationReport { rows, shared }
 }
 
-/// Returns for each number system a tally for each of its claims.
-fn tallies(
-    checkers: &[(NumberSystem, Box<dyn ErasedChecker>)],
-    options: &Options,
-    progress: &(dyn Fn(usize, usize) + Sync),
-) -> Vec<Vec<ClaimTally>> {
-    let mut groups: Vec<Vec<Hypothesis>> = Vec::new();
-    for (_, checker) in checkers {
-        for key in checker.keys() {
-            if options.includes(key.equation) && !groups.contains(&key.hypotheses) {
-                groups.push(key.hypotheses);
-            }
-        }
-    }
+/// Returns the results of all claims and experiments.
+fn check(groups: &[Group], options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> Vec<ClaimResult> {
     let blocks = options.cases.div_ceil(BLOCK);
     let (done, all) = (AtomicUsize::new(0), (blocks as usize).saturating_mul(groups.len()));
-    let mut totals: Vec<Vec<ClaimTally>> =
-        checkers.iter().map(|(_, c)| c.keys().iter().map(|_| ClaimTally::default()).collect()).collect();
-    // Blocks are processed in windows, so that memory does not grow with the number of cases.
-    for window in (0..blocks).step_by(WINDOW) {
-        let window = window..blocks.min(window + WINDOW as u64);
-        let jobs: Vec<(u64, &Vec<Hypothesis>)> =
-            window.flat_map(|b| groups.iter().map(move |g| (b, g))).collect();
-        // For each job and each checker, the tallies of the claims with the job's hypotheses.
-        let results: Vec<Vec<Vec<(usize, ClaimTally)>>> = jobs
-            .par_iter()
-            .map(|(block, hypotheses)| {
-                let indices = block * BLOCK..(block * BLOCK).saturating_add(BLOCK).min(options.cases);
-                let cases: Vec<_> = indices.map(|i| cases::case(options.seed, i, hypotheses)).collect();
-                let tallies =
-                    checkers.iter().map(|(_, checker)| checker.check(hypotheses, options, &cases)).collect();
-                progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
-                tallies
-            })
-            .collect();
-        for job in results {
-            for (total, tallies) in totals.iter_mut().zip(job) {
-                for (index, tally) in tallies {
-                    total[index].add(tally);
+    let of_group = |group: &Group| {
+        let none = || group.results.clone();
+        let of_block = |block: u64| {
+            // Their status follows when they are added.
+            let (mut results, first) = (none(), block * BLOCK);
+            for index in first..first.saturating_add(BLOCK).min(options.cases) {
+                match cases::case(options.seed, index, &group.hypotheses) {
+                    Some(case) => {
+                        group.checks.iter().for_each(|(own, check)| check(&case, &mut results[own.clone()]));
+                    }
+                    None => results.iter_mut().for_each(ClaimResult::skip),
                 }
             }
-        }
-    }
-    totals
+            progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
+            results
+        };
+        let add = |mut all: Vec<ClaimResult>, later: Vec<ClaimResult>| {
+            all.iter_mut().zip(later).for_each(|(all, later)| all.add(later));
+            all
+        };
+        // Only adjacent blocks are added, so the first counterexample is that of the first case.
+        (0..blocks).into_par_iter().map(of_block).reduce(none, add)
+    };
+    groups.par_iter().map(of_group).collect::<Vec<_>>().concat()
 }
 
 /// Returns the row of a proof.
@@ -327,28 +296,31 @@ fn proof(statement: &Statement) -> ClaimResult {
         ProofOutcome::None(reason, counterexample) => (Some(reason), counterexample),
     };
     ClaimResult {
-        equation: statement.equation(),
-        claim: statement.name(),
-        kind: statement.kind(),
-        scalar: None,
         status: if reason.is_none() { Status::Proved } else { Status::Failed },
         reason,
-        decided: 0,
-        undecided: 0,
-        worst: None,
         counterexample: counterexample.as_ref().map(|found| cases::case_at(&found.point)),
+        ..ClaimResult::new(statement.equation(), statement.name(), statement.kind(), None)
     }
 }
 
-fn checks(scalar: NumberSystem) -> Box<dyn ErasedChecker> {
-    match scalar {
-        NumberSystem::F32 => Box::new(Checker::new(Balls(0.0f32), claims(), experiments())),
-        NumberSystem::F64 => Box::new(Checker::new(Balls(0.0f64), claims(), experiments())),
-        NumberSystem::Mpfr(bits) => {
-            Box::new(Checker::new(Balls(Mpfr::rounded(bits, 0)), claims(), experiments()))
+/// Returns the claims and experiments of the equations and the number systems, by their hypotheses.
+fn groups(options: &Options) -> Vec<Group> {
+    let mut groups = Vec::new();
+    for scalar in options.scalars.iter().copied() {
+        let all = &mut groups;
+        match scalar {
+            NumberSystem::F32 => add_checks(all, options, (scalar, Balls(0f32)), claims(), experiments()),
+            NumberSystem::F64 => add_checks(all, options, (scalar, Balls(0f64)), claims(), experiments()),
+            NumberSystem::Mpfr(bits) => {
+                let balls = Balls(Mpfr::rounded(bits, 0));
+                add_checks(all, options, (scalar, balls), claims(), experiments());
+            }
+            NumberSystem::Exact => {
+                add_checks(all, options, (scalar, Rationals::unrounded()), claims(), Vec::new());
+            }
         }
-        NumberSystem::Exact => Box::new(Checker::new(Rationals::unrounded(), claims(), Vec::new())),
     }
+    groups
 }
 
 /// Returns the names of an entry's claims in all number systems.

@@ -5,8 +5,6 @@ mod api_guarantees;
 #[cfg(feature = "mpfr")]
 mod derivatives;
 #[cfg(feature = "mpfr")]
-mod oracles;
-#[cfg(feature = "mpfr")]
 mod properties;
 #[cfg(feature = "mpfr")]
 mod small_floats;

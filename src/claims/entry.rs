@@ -114,7 +114,7 @@ impl Entry {
 
 #[cfg(test)]
 mod tests {
-    use crate::claims::{entries, entry, entry_for_function, hypotheses};
+    use crate::claims::{entries, entry_for_function};
 
     #[test]
     fn an_entry_that_lists_the_function_first_is_preferred() {
@@ -125,16 +125,6 @@ mod tests {
             assert!(found.functions.contains(function));
         }
         assert!(entry_for_function("penalty::nothing").is_none());
-    }
-
-    #[test]
-    fn an_entry_formats_its_hypotheses() {
-        let supposing = entries().iter().filter(|entry| entry.hypotheses.contains(&hypotheses().stiffness));
-        for entry in supposing.chain([entry("1.13").unwrap()]) {
-            assert!(entry.format_hypotheses().contains(&"c > 0".to_string()), "{}", entry.label());
-        }
-        let nothing = entries().iter().find(|entry| entry.hypotheses.is_empty()).unwrap();
-        assert!(nothing.format_hypotheses().is_empty());
     }
 
     #[test]

@@ -80,40 +80,12 @@ mod tests {
     #[test]
     fn every_notation_of_a_number_is_understood() {
         for (number, ways) in [
-            ("1.13", ["(1.13)", "( 1.13 )", " 1.13", "eq 1.13", "Eq. (1.13)", "EQN.1.13", "(equation 1.13)"]),
-            (
-                "Theorem 1.3.3",
-                [
-                    "theorem 1.3.3",
-                    "THEOREM  1.3.3",
-                    "Theorem1.3.3",
-                    "Thm. 1.3.3",
-                    "thm 1.3.3",
-                    "theorem (1.3.3)",
-                    "(Theorem 1.3.3)",
-                ],
-            ),
-            (
-                "Fig. 1.2",
-                ["Fig 1.2", "fig. 1.2", "fig 1.2", "FIG.1.2", "figure 1.2", "Figure (1.2)", "(Fig. 1.2)"],
-            ),
-            (
-                "Remark 1.3.2",
-                [
-                    "remark 1.3.2",
-                    "Remark. 1.3.2",
-                    "rem. 1.3.2",
-                    "Rem 1.3.2",
-                    "REMARK 1.3.2",
-                    "remark (1.3.2)",
-                    "remark1.3.2",
-                ],
-            ),
-            ("note 4", ["Note 4", "NOTE 4", "note4", "note  4", "note (4)", "(note 4)", "Note. 4"]),
-            (
-                "beyond 2",
-                ["Beyond 2", "BEYOND 2", "beyond2", "beyond  2", "beyond (2)", "(beyond 2)", " beyond 2 "],
-            ),
+            ("1.13", ["( 1.13 )", "Eq. (1.13)", "EQN.1.13", "(equation 1.13)"]),
+            ("Theorem 1.3.3", ["THEOREM  1.3.3", "Thm. 1.3.3", "theorem (1.3.3)", "(Theorem 1.3.3)"]),
+            ("Fig. 1.2", ["Fig 1.2", "FIG.1.2", "figure 1.2", "(Fig. 1.2)"]),
+            ("Remark 1.3.2", ["rem. 1.3.2", "REMARK 1.3.2", "remark (1.3.2)", "remark1.3.2"]),
+            ("note 4", ["NOTE 4", "note4", "note  4", "(note 4)"]),
+            ("beyond 2", ["BEYOND 2", "beyond2", "beyond (2)", " beyond 2 "]),
         ] {
             for way in ways.into_iter().chain([number]) {
                 assert_eq!(equation(way), Some(number), "{way}");

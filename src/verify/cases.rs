@@ -3,9 +3,10 @@
 //! A number is drawn as an integer mantissa and an integer exponent, so that a seed has the same meaning on
 //! every machine.
 
+use super::experiments::unit;
 use crate::chapter::system;
 use crate::claims::{Case, Var, hypotheses};
-use crate::eval::{Coordinates, Point, adjust};
+use crate::eval::Point;
 use crate::formula::{Hypothesis, Relation};
 use crate::number::{Exact, PositivePart};
 use num_traits::Zero;
@@ -30,10 +31,10 @@ enum Profile {
     Huge,
     /// Small numbers.
     Tiny,
-    /// Subnormal parameters or products in f32.
-    SubnormalSingle,
-    /// Subnormal parameters or products in f64, out of the range of f32.
-    SubnormalDouble,
+    /// Moderate numbers in units in which some of them, or their products, are subnormal floats: the powers of two of
+    /// length, mass and force, one of which is drawn. No other quantity leaves the range, and no force is rounded to 0,
+    /// for which [`solve`](crate::solver::solve) returns an error.
+    Subnormal(&'static [[i32; 3]]),
 }
 
 const PROFILES: &[Profile] = &[
@@ -44,56 +45,24 @@ const PROFILES: &[Profile] = &[
     Profile::Stiff,
     Profile::Double,
     Profile::Tiny,
-    Profile::SubnormalSingle,
+    // Subnormal are c and ε; m; g; the lengths; and the products m g and c Δ. In f32, then in f64.
+    Profile::Subnormal(&[[40, 0, -89], [-30, -129, -30], [-30, 99, -30], [-129, -10, -70], [-56, -56, -112]]),
     Profile::Huge,
-    Profile::SubnormalDouble,
+    Profile::Subnormal(&[
+        [500, 0, -554],
+        [-30, -1054, -30],
+        [-30, 1024, -30],
+        [-1054, 0, -250],
+        [-519, -519, -1038],
+    ]),
 ];
-
-/// Subnormal quantities of a case. The other quantities are scaled so that no force, and no quotient of a
-/// force and a stiffness, is rounded to 0; [`solve`](crate::solver::solve) returns an error for such a case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Small {
-    /// c and ε.
-    Stiffnesses,
-    /// m.
-    Mass,
-    /// g.
-    Gravity,
-    /// l and H.
-    Lengths,
-    /// m g and c Δ, with normal parameters.
-    Products,
-}
-
-impl Small {
-    const ALL: [Small; 5] =
-        [Small::Stiffnesses, Small::Mass, Small::Gravity, Small::Lengths, Small::Products];
-
-    /// Returns the exponents of two by which a quantity exceeds one of moderate magnitude, for f32 and for
-    /// f64; `None` if it is subnormal.
-    fn shift(self, var: Var) -> Option<[i32; 2]> {
-        use Var::*;
-        match (self, var) {
-            (Small::Stiffnesses, C | Eps) | (Small::Mass, M) | (Small::Gravity, G) => None,
-            (Small::Lengths, L | H) => None,
-            (Small::Stiffnesses, L | H | U | V | Du | Tol) => Some([40, 500]),
-            (Small::Stiffnesses, G | Lambda) => Some([-90, -550]),
-            (Small::Mass, G) | (Small::Gravity, M) => Some([100, 1000]),
-            (Small::Mass | Small::Gravity, L | H) => Some([-30, -30]),
-            (Small::Lengths, C | Eps) => Some([60, 780]),
-            (Small::Lengths, G) => Some([-60, -250]),
-            (Small::Products, _) => Some([-56, -519]),
-            _ => Some([0, 0]),
-        }
-    }
-}
 
 /// Random source of one case.
 struct CaseSampler {
     random: Rand64,
     profile: Profile,
-    /// Subnormal quantities, for the subnormal profiles.
-    small: Small,
+    /// Powers of two of the units of length, mass and force.
+    units: [i32; 3],
 }
 
 impl CaseSampler {
@@ -109,8 +78,9 @@ impl CaseSampler {
     fn magnitude(&mut self, var: Var) -> Exact {
         let (bits, low, high) = match self.profile {
             Profile::Plain => return Exact::from(self.between(1, 9)),
-            Profile::SubnormalSingle => self.subnormal(var, 0, -149, 24),
-            Profile::SubnormalDouble => self.subnormal(var, 1, -1074, 53),
+            // Multiples of four times the smallest float, so that a unit four times as large (note 8) changes no digit;
+            // a product of two such numbers is a float, too.
+            Profile::Subnormal(_) => (6, -18, -12),
             Profile::Moderate | Profile::Stiff | Profile::Grazing => (11, -18, 4),
             Profile::Single => (24, -32, -16),
             Profile::Double => (53, -60, -46),
@@ -118,19 +88,8 @@ impl CaseSampler {
             Profile::Tiny => (11, -45, -25),
         };
         let mantissa = 1 + self.below(1 << bits);
-        Exact::from(rug::Rational::from(mantissa) << self.between(low, high))
-    }
-
-    /// Returns the number of bits of the mantissa and the range of the exponent, for a subnormal case of
-    /// floats of this precision, whose smallest number is 2^`smallest`. Subnormal numbers are multiples of
-    /// four times that number, so that a unit four times as large (note 8) changes no digit.
-    fn subnormal(&self, var: Var, float: usize, smallest: i32, precision: i32) -> (u32, i32, i32) {
-        // Few digits, so that a product of two such numbers is small and not less than the smallest number.
-        let digits = if self.small == Small::Products { 6 } else { 11 };
-        match self.small.shift(var) {
-            None => (11, smallest + 2, smallest + precision - 13),
-            Some(shift) => (digits, -18 + shift[float], -12 + shift[float]),
-        }
+        let exponent = self.between(low, high) + unit(self.units, var);
+        Exact::from(rug::Rational::from(mantissa)) * Exact::power_of_two(exponent)
     }
 
     /// Draws a dimensionless number of moderate magnitude.
@@ -166,8 +125,8 @@ impl CaseSampler {
     }
 
     fn raw(&mut self) -> Case<Exact> {
-        if matches!(self.profile, Profile::SubnormalSingle | Profile::SubnormalDouble) {
-            self.small = Small::ALL[self.below(Small::ALL.len() as u64) as usize];
+        if let Profile::Subnormal(units) = self.profile {
+            self.units = units[self.below(units.len() as u64) as usize];
         }
         let mut case = Case::of(|var| self.coordinate(var));
         if self.profile == Profile::Stiff {
@@ -175,8 +134,9 @@ impl CaseSampler {
         }
         if self.profile == Profile::Grazing {
             let (reaction, grazing) = (self.next_to_grazing(&case), &hypotheses().grazing);
+            let solved_for = Var::named(grazing.solved_for).expect("a coordinate");
             if let Some(x) = grazing.solve(&|symbol| case.get_by_symbol(symbol), &reaction) {
-                case.set(grazing.solved_for, x);
+                *case.get_mut(solved_for) = x;
             }
         }
         case
@@ -188,33 +148,24 @@ impl CaseSampler {
 pub(super) fn case(seed: u64, index: u64, hypotheses: &[Hypothesis]) -> Option<Case<Exact>> {
     let profile = PROFILES[(index % PROFILES.len() as u64) as usize];
     let random = Rand64::new((u128::from(seed) << 64) | u128::from(index));
-    let mut sampler = CaseSampler { random, profile, small: Small::Products };
-    let mut case = sampler.raw();
-    adjust(&mut case, hypotheses, |hypothesis, case| {
-        let value = hypothesis.value.eval(&|symbol| case.get_by_symbol(symbol), &|_| None)?;
+    let mut sampler = CaseSampler { random, profile, units: [0; 3] };
+    let case = point_at(&sampler.raw()).adjusted_to(hypotheses, |hypothesis, point| {
+        let value = hypothesis.value.eval(&|symbol| point.at(symbol), &|_| None)?;
         Some(match hypothesis.relation {
             Relation::Zero => Exact::zero(),
             Relation::NonNegative if sampler.below(4) == 0 => Exact::zero(),
-            _ if value.is_zero() => match sampler.next_to_grazing(case).abs() {
+            _ if value.is_zero() => match sampler.next_to_grazing(&case_at(point)).abs() {
                 tiny if profile == Profile::Grazing && !tiny.is_zero() => tiny,
                 _ => sampler.magnitude(Var::Lambda),
             },
             _ => value.abs(),
         })
     })?;
-    Some(case)
+    Some(case_at(&case))
 }
 
-impl Coordinates for Case<Exact> {
-    fn get(&self, symbol: &'static str) -> Exact {
-        self.get_by_symbol(symbol)
-    }
-
-    fn set(&mut self, symbol: &'static str, x: Exact) {
-        if let Some(var) = Var::named(symbol) {
-            *self.get_mut(var) = x;
-        }
-    }
+fn point_at(case: &Case<Exact>) -> Point {
+    Point::new(Var::ALL.iter().map(|var| (var.symbol(), case.get(*var).clone())))
 }
 
 /// Returns the case with the coordinates of a point, with 1 for those that it does not contain.

@@ -13,67 +13,57 @@ use crate::number::{Ball, Exact, Exponential, Mpfr, NumberSystem, Program, Real,
 use crate::solver::Scalar;
 use num_traits::Zero;
 use std::fmt::Debug;
+use std::ops::Range;
 
-/// Identification and hypotheses of a claim in any number system.
-#[derive(Clone)]
-pub(super) struct ClaimKey {
-    pub(super) equation: &'static str,
-    claim: &'static str,
-    kind: &'static str,
-    pub(super) hypotheses: Vec<Hypothesis>,
-}
-
-impl ClaimKey {
-    fn of_claim(claim: &Statement) -> Self {
-        ClaimKey {
-            equation: claim.equation(),
-            claim: claim.name(),
-            kind: claim.kind(),
-            hypotheses: claim.stated_hypotheses().to_vec(),
+impl ClaimResult {
+    /// Returns the result without cases.
+    pub(super) fn new(
+        equation: &'static str,
+        claim: &'static str,
+        kind: &'static str,
+        scalar: Option<NumberSystem>,
+    ) -> Self {
+        ClaimResult {
+            equation,
+            claim,
+            kind,
+            status: Status::Undecided,
+            scalar,
+            reason: None,
+            decided: 0,
+            undecided: 0,
+            worst: None,
+            counterexample: None,
         }
     }
 
-    fn of_experiment<T>(experiment: &Experiment<T>) -> Self {
-        ClaimKey {
-            equation: experiment.equation,
-            claim: experiment.name,
-            kind: "experiment",
-            hypotheses: experiment.hypotheses.clone(),
-        }
-    }
-}
-
-/// Results of the cases of a claim.
-#[derive(Default)]
-pub(super) struct ClaimTally {
-    decided: u64,
-    undecided: u64,
-    worst: Option<(f64, String)>,
-    /// First case in which the claim does not hold, with the reason if its evaluation failed.
-    failure: Option<(Case<Exact>, Option<String>)>,
-}
-
-impl ClaimTally {
-    /// Adds the tally of later cases.
-    pub(super) fn add(&mut self, other: ClaimTally) {
+    /// Adds the result of later cases.
+    pub(super) fn add(&mut self, other: ClaimResult) {
         self.decided += other.decided;
         self.undecided += other.undecided;
         if other.worst.as_ref().is_some_and(|(ratio, _)| self.worst.as_ref().is_none_or(|(r, _)| ratio > r)) {
             self.worst = other.worst;
         }
-        self.failure = self.failure.take().or(other.failure);
+        if self.counterexample.is_none() {
+            (self.counterexample, self.reason) = (other.counterexample, other.reason);
+        }
+        self.status = match (self.decided, &self.counterexample) {
+            (_, Some(_)) => Status::Failed,
+            (0, None) => Status::Undecided,
+            (_, None) => Status::Held,
+        };
     }
 
     /// Adds a case that cannot be decided.
-    fn skip(&mut self) {
+    pub(super) fn skip(&mut self) {
         self.undecided += 1;
     }
 
     /// Adds a decided case; a reason says why an evaluation failed.
     fn decide(&mut self, case: &Case<Exact>, holds: bool, reason: Option<String>) {
         self.decided += 1;
-        if !holds {
-            self.failure.get_or_insert_with(|| (case.clone(), reason));
+        if !holds && self.counterexample.is_none() {
+            (self.counterexample, self.reason) = (Some(case.clone()), reason);
         }
     }
 
@@ -116,27 +106,6 @@ impl ClaimTally {
             }
         }
         self.decide(case, holds, reason);
-    }
-
-    pub(super) fn into_result(self, key: ClaimKey, scalar: Option<NumberSystem>) -> ClaimResult {
-        let status = match (&self.failure, self.decided) {
-            (Some(_), _) => Status::Failed,
-            (None, 0) => Status::Undecided,
-            (None, _) => Status::Held,
-        };
-        let (counterexample, reason) = self.failure.unzip();
-        ClaimResult {
-            equation: key.equation,
-            claim: key.claim,
-            kind: key.kind,
-            scalar,
-            status,
-            reason: reason.flatten(),
-            decided: self.decided,
-            undecided: self.undecided,
-            worst: self.worst,
-            counterexample,
-        }
     }
 }
 
@@ -201,43 +170,82 @@ fn ratio<T: Scalar + ToExact>(error: &T, bound: &T) -> f64 {
     }
 }
 
-/// Claims and experiments of a number system with its types erased.
-pub(super) trait ErasedChecker: Sync {
-    /// Returns the keys of all claims and experiments in order.
-    fn keys(&self) -> Vec<ClaimKey>;
+/// Adds a case to the results of claims and experiments.
+type Check = Box<dyn Fn(&Case<Exact>, &mut [ClaimResult]) + Send + Sync>;
 
-    /// Checks the claims and experiments with these hypotheses that the options include, in cases that
-    /// satisfy the hypotheses. Each tally has the index of its claim.
-    fn check(
-        &self,
-        hypotheses: &[Hypothesis],
-        options: &Options,
-        cases: &[Option<Case<Exact>>],
-    ) -> Vec<(usize, ClaimTally)>;
+/// Claims and experiments with the same hypotheses, which are checked on the same cases.
+pub(super) struct Group {
+    pub(super) hypotheses: Vec<Hypothesis>,
+    /// Their results without cases.
+    pub(super) results: Vec<ClaimResult>,
+    /// The results of each number system, with their check.
+    pub(super) checks: Vec<(Range<usize>, Check)>,
 }
 
-/// Claims with the same hypotheses, which are checked on the same cases.
-struct Group {
-    hypotheses: Vec<Hypothesis>,
-    program: Program,
-    /// Each claim with its index and its tests.
-    claims: Vec<(usize, Vec<(&'static str, Test)>)>,
-}
-
-/// Groups claims by their hypotheses.
-fn groups(claims: &[Statement]) -> Vec<Group> {
-    let mut groups: Vec<Group> = Vec::new();
-    for (index, claim) in claims.iter().enumerate() {
-        let hypotheses = claim.stated_hypotheses();
+/// Adds the claims that can be evaluated in a number system, and its experiments, to the groups with their hypotheses.
+pub(super) fn add_checks<'a, D: NumberDomain + Clone + Send + 'static>(
+    groups: &mut Vec<Group>,
+    options: &Options,
+    (scalar, domain): (NumberSystem, D),
+    claims: impl IntoIterator<Item = &'a Statement>,
+    mut experiments: Vec<Experiment<D::Number>>,
+) {
+    // Experiments check claims about rounding.
+    let is_evaluable =
+        |claim: &Statement| !claim.contains_rounding() && (D::EXPONENTIALS || !claim.contains_exponential());
+    let mut claims: Vec<_> = claims.into_iter().filter(|claim| is_evaluable(claim)).collect();
+    claims.retain(|claim| options.includes(claim.equation()));
+    experiments.retain(|experiment| options.includes(experiment.equation));
+    let of_claims = claims.iter().map(|claim| claim.stated_hypotheses().to_vec());
+    let of_experiments = experiments.iter().map(|experiment| experiment.hypotheses.clone());
+    for hypotheses in of_claims.chain(of_experiments).collect::<Vec<_>>() {
+        let claims: Vec<_> = claims.extract_if(.., |claim| claim.stated_hypotheses() == hypotheses).collect();
+        let tried: Vec<_> = experiments.extract_if(.., |tried| tried.hypotheses == hypotheses).collect();
+        let result = |equation, claim, kind| ClaimResult::new(equation, claim, kind, Some(scalar));
+        let of_claims = claims.iter().map(|claim| result(claim.equation(), claim.name(), claim.kind()));
+        let of_experiments = tried.iter().map(|tried| result(tried.equation, tried.name, "experiment"));
+        let results: Vec<_> = of_claims.chain(of_experiments).collect();
+        // Those of hypotheses that occur several times are taken already.
+        if results.is_empty() {
+            continue;
+        }
         let place = groups.iter().position(|group| group.hypotheses == hypotheses).unwrap_or_else(|| {
-            let (program, claims) = Default::default();
-            groups.push(Group { hypotheses: hypotheses.to_vec(), program, claims });
+            groups.push(Group { hypotheses, results: Vec::new(), checks: Vec::new() });
             groups.len() - 1
         });
-        let Group { program, claims, .. } = &mut groups[place];
-        claims.push((index, tests(claim, program)));
+        let group = &mut groups[place];
+        let places = group.results.len()..group.results.len() + results.len();
+        group.results.extend(results);
+        group.checks.push((places, check(domain.clone(), &claims, tried)));
     }
-    groups
+}
+
+/// Returns the check of claims, whose common formulas are computed once, and of experiments.
+fn check<D: NumberDomain + Send + 'static>(
+    domain: D,
+    claims: &[&Statement],
+    experiments: Vec<Experiment<D::Number>>,
+) -> Check {
+    let mut program = Program::default();
+    let tests: Vec<_> = claims.iter().map(|claim| tests(claim, &mut program)).collect();
+    Box::new(move |case, results| {
+        let (of_claims, of_experiments) = results.split_at_mut(tests.len());
+        let symbol = |name: &'static str| domain.value(&case.get_by_symbol(name));
+        let values = Evaluation::of(&program, &domain, symbol);
+        for (claim, result) in tests.iter().zip(of_claims) {
+            result.evaluate(case, &values, claim);
+        }
+        if experiments.is_empty() {
+            return;
+        }
+        let numbers = Case::try_of(|var| domain.number(case.get(var)).ok_or(()));
+        for (experiment, result) in experiments.iter().zip(of_experiments) {
+            match &numbers {
+                Ok(numbers) => result.try_experiment(case, experiment, numbers),
+                Err(()) => result.skip(),
+            }
+        }
+    })
 }
 
 /// Returns the tests of a claim: those of its instances, and those of the steps of its induction for any q.
@@ -249,81 +257,6 @@ fn tests(claim: &Statement, program: &mut Program) -> Vec<(&'static str, Test)> 
     all.filter(|instance| !matches!(instance.proposition, Proposition::Limit(..)))
         .map(|instance| (instance.part, Test::of(&instance, program)))
         .collect()
-}
-
-pub(super) struct Checker<D: NumberDomain> {
-    domain: D,
-    /// In the order of the keys.
-    claims: Vec<Statement>,
-    groups: Vec<Group>,
-    experiments: Vec<Experiment<D::Number>>,
-}
-
-impl<D: NumberDomain> Checker<D> {
-    /// Returns a checker of the claims that can be evaluated in these numbers, and of experiments.
-    pub(super) fn new<'a>(
-        domain: D,
-        claims: impl IntoIterator<Item = &'a Statement>,
-        experiments: Vec<Experiment<D::Number>>,
-    ) -> Self {
-        // Experiments check claims about rounding.
-        let recorded = claims.into_iter().filter(|claim| !claim.contains_rounding());
-        let evaluable = recorded.filter(|claim| D::EXPONENTIALS || !claim.contains_exponential());
-        let claims: Vec<Statement> = evaluable.cloned().collect();
-        Checker { domain, groups: groups(&claims), claims, experiments }
-    }
-}
-
-impl<D: NumberDomain> ErasedChecker for Checker<D> {
-    fn keys(&self) -> Vec<ClaimKey> {
-        let experiments = self.experiments.iter().map(ClaimKey::of_experiment);
-        self.claims.iter().map(ClaimKey::of_claim).chain(experiments).collect()
-    }
-
-    fn check(
-        &self,
-        hypotheses: &[Hypothesis],
-        options: &Options,
-        cases: &[Option<Case<Exact>>],
-    ) -> Vec<(usize, ClaimTally)> {
-        let offset = self.claims.len();
-        let group = self.groups.iter().find(|group| group.hypotheses == hypotheses);
-        let mut claims: Vec<_> = group.map_or(&[][..], |group| &group.claims).iter().collect();
-        claims.retain(|(place, _)| options.includes(self.claims[*place].equation()));
-        let mut experiments: Vec<_> = self.experiments.iter().enumerate().collect();
-        experiments.retain(|(_, e)| e.hypotheses == hypotheses && options.includes(e.equation));
-        let places = claims.iter().map(|(i, _)| *i).chain(experiments.iter().map(|(i, _)| offset + i));
-        let mut tallies: Vec<(usize, ClaimTally)> =
-            places.map(|place| (place, ClaimTally::default())).collect();
-        if tallies.is_empty() {
-            return tallies;
-        }
-        let (of_claims, of_experiments) = tallies.split_at_mut(claims.len());
-        for case in cases {
-            let Some(case) = case else {
-                of_claims.iter_mut().chain(&mut *of_experiments).for_each(|(_, tally)| tally.skip());
-                continue;
-            };
-            if let Some(group) = group.filter(|_| !claims.is_empty()) {
-                let symbol = |name: &'static str| self.domain.value(&case.get_by_symbol(name));
-                let values = Evaluation::of(&group.program, &self.domain, symbol);
-                for ((_, claim), (_, tally)) in claims.iter().zip(&mut *of_claims) {
-                    tally.evaluate(case, &values, claim);
-                }
-            }
-            if experiments.is_empty() {
-                continue;
-            }
-            let numbers = Case::try_of(|var| self.domain.number(case.get(var)).ok_or(()));
-            for ((_, experiment), (_, tally)) in experiments.iter().zip(&mut *of_experiments) {
-                match &numbers {
-                    Ok(numbers) => tally.try_experiment(case, experiment, numbers),
-                    Err(()) => tally.skip(),
-                }
-            }
-        }
-        tallies
-    }
 }
 
 #[cfg(test)]

@@ -200,9 +200,9 @@ fn promise<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Tr
 /// Checks that a change of units by powers of two changes no digit.
 fn units<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Trial {
     let [length, _, force] = UNITS;
-    let scaled = x.map(|var, y| scale(y, unit(var)));
+    let scaled = x.map(|var, y| scale(y, unit(UNITS, var)));
     // Subnormal numbers lose digits when they are scaled.
-    let comes_back = scaled.map(|var, y| scale(y, -unit(var))) == *x;
+    let comes_back = scaled.map(|var, y| scale(y, -unit(UNITS, var))) == *x;
     if !rounding_claims::in_range(x) || !rounding_claims::in_range(&scaled) || !comes_back {
         return Trial::Undecided;
     }
@@ -218,14 +218,13 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Tria
     }
 }
 
-/// Returns the exponent of two of the unit of a quantity.
-fn unit(var: Var) -> i32 {
-    let [length, mass, force] = UNITS;
+/// Returns the exponent of two of the unit of a quantity, from those of length, mass and force.
+pub(super) fn unit([length, mass, force]: [i32; 3], var: Var) -> i32 {
     match var {
         Var::C | Var::Eps => force - length,
         Var::M => mass,
         Var::G => force - mass,
-        Var::L | Var::H | Var::Tol => length,
+        Var::L | Var::H | Var::U | Var::V | Var::Du | Var::Tol => length,
         Var::Lambda => force,
         _ => 0,
     }

@@ -60,16 +60,21 @@ Proof.
   apply (is_lim_seq_scal_l p (- (c + eps)) 0), theorem_1_3_3; assumption.
 Qed.
 
+Lemma contraction_inside : 0 < c -> 0 < eps -> 0 < augmented_contraction c eps < 1.
+Proof. intros C E. functions. split; [apply Rdiv_lt_0_compat; lra | apply Rlt_div_l; lra]. Qed.
+
+Lemma size_contracts :
+  0 < c -> 0 < eps -> forall k, Rabs (p (S k)) = augmented_contraction c eps * Rabs (p k).
+Proof.
+  intros C E k. pose proof (contraction_inside C E).
+  rewrite iterates_contract, Rabs_mult, (Rabs_pos_eq (augmented_contraction c eps)); lra.
+Qed.
+
 (** ... and in size the penetration falls at every step, unless it is 0. *)
 Theorem theorem_1_3_3_falls_in_size : 0 < c -> 0 < eps -> forall k, p k <> 0 -> Rabs (p (S k)) < Rabs (p k).
 Proof.
-  intros C E k P. rewrite iterates_contract, Rabs_mult by lra.
-  assert (A : 0 < Rabs (p k)) by (apply Rabs_pos_lt, P).
-  assert (F : augmented_contraction c eps = 1 - eps / (c + eps)) by (functions; field; lra).
-  assert (0 < eps / (c + eps)) by (apply Rdiv_lt_0_compat; lra).
-  assert (0 < augmented_contraction c eps) by (functions; apply Rdiv_lt_0_compat; lra).
-  rewrite (Rabs_pos_eq (augmented_contraction c eps)) by lra.
-  rewrite <- (Rmult_1_l (Rabs (p k))) at 2. apply Rmult_lt_compat_r; lra.
+  intros C E k P. rewrite size_contracts by assumption.
+  pose proof (contraction_inside C E). pose proof (Rabs_pos_lt _ P). nra.
 Qed.
 
 (** (1.17) without powers: no iterate penetrates more than the harmonic bound says. *)
@@ -78,14 +83,8 @@ Theorem eq_1_17_harmonic :
 Proof.
   intros C E k. induction k as [ | k I].
   - cbn [INR]. rewrite (eq_1_17_harmonic_start c eps C). lra.
-  - rewrite iterates_contract, Rabs_mult by lra.
-    assert (0 < augmented_contraction c eps) by (functions; apply Rdiv_lt_0_compat; lra).
-    rewrite (Rabs_pos_eq (augmented_contraction c eps)), S_INR by lra.
-    apply Rle_trans with
-      (augmented_contraction c eps * (augmented_harmonic_bound c eps (INR k) * Rabs (p 0))).
-    + apply Rmult_le_compat_l; lra.
-    + rewrite <- Rmult_assoc. apply Rmult_le_compat_r; [apply Rabs_pos | ].
-      pose proof (eq_1_17_harmonic_step c eps (INR k) C E (pos_INR k)). lra.
+  - rewrite size_contracts, S_INR by assumption. pose proof (contraction_inside C E).
+    pose proof (eq_1_17_harmonic_step c eps (INR k) C E (pos_INR k)). pose proof (Rabs_pos (p 0)). nra.
 Qed.
 
 (** Note 5: so it does for a penalty that is far enough below 0. *)
@@ -101,11 +100,7 @@ Lemma iterates_in_size :
   0 < c -> 0 < eps -> forall k, Rabs (p k) * (1 + eps / c) ^ k = Rabs (p 0).
 Proof.
   intros C E k. induction k as [ | k I]; [cbn [pow]; ring | ].
-  assert (0 < eps / c) by (apply Rdiv_lt_0_compat; lra).
-  assert (F : augmented_contraction c eps = / (1 + eps / c)) by (functions; field; lra).
-  rewrite <- I, iterates_contract, Rabs_mult, F by lra.
-  rewrite (Rabs_pos_eq (/ _)) by (apply Rlt_le, Rinv_0_lt_compat; lra).
-  cbn [pow]. field. lra.
+  rewrite <- I, size_contracts by assumption. cbn [pow]. functions. field. lra.
 Qed.
 
 Theorem eq_1_33_steps (tol : R) :
@@ -114,35 +109,22 @@ Theorem eq_1_33_steps (tol : R) :
   Rabs (p n) < tol /\ forall k, (k < n)%nat -> tol <= Rabs (p k).
 Proof.
   intros C E T P n.
-  assert (Q : 0 < eps / c) by (apply Rdiv_lt_0_compat; lra).
+  assert (0 < eps / c) by (apply Rdiv_lt_0_compat; lra).
   assert (G : 0 < ln (1 + eps / c)) by (rewrite <- ln_1; apply ln_increasing; lra).
-  assert (O : 1 <= Rabs (p 0) / tol) by (apply Rle_div_r; lra).
-  assert (X : 0 <= ln (Rabs (p 0) / tol)).
-  { rewrite <- ln_1. destruct O as [O | <-]; [left; apply ln_increasing; lra | lra]. }
+  assert (D : 0 < Rabs (p 0) / tol) by (apply Rdiv_lt_0_compat; lra).
   set (x := ln (Rabs (p 0) / tol) / ln (1 + eps / c)) in n.
-  assert (0 <= x) by (apply Rdiv_le_0_compat; assumption).
+  assert (K : forall k, Rabs (p k) < tol <-> x < INR k).
+  { intro k. assert (W : 0 < (1 + eps / c) ^ k) by (apply pow_lt; lra).
+    assert (L : x < INR k <-> Rabs (p 0) / tol < (1 + eps / c) ^ k).
+    { unfold x. rewrite Rlt_div_l by exact G. rewrite <- ln_pow by lra.
+      split; [apply ln_lt_inv; assumption | apply ln_increasing, D]. }
+    rewrite L, Rlt_div_l by exact T. rewrite <- (iterates_in_size C E k). split; nra. }
+  assert (0 <= x) by (apply Rnot_lt_le; intro N; apply (K 0%nat) in N; lra).
   destruct (archimed x) as [A B].
   assert (N : INR n = IZR (up x)).
   { unfold n. rewrite INR_IZR_INZ, Z2Nat.id; [reflexivity | ]. apply le_IZR. lra. }
-  (* The k-th penetration is below the tolerance if and only if x < k. *)
-  assert (L : ln (Rabs (p 0) / tol) = x * ln (1 + eps / c)) by (unfold x; field; lra).
-  assert (W : forall k, 0 < (1 + eps / c) ^ k) by (intro k; apply pow_lt; lra).
-  assert (D : Rabs (p 0) / tol = exp (x * ln (1 + eps / c))) by (rewrite <- L, exp_ln; lra).
-  assert (V : forall k, (1 + eps / c) ^ k = exp (INR k * ln (1 + eps / c))).
-  { intro k. rewrite <- (exp_ln (1 + eps / c)) at 1 by lra. rewrite <- Rpower_pow by apply exp_pos.
-    unfold Rpower. rewrite ln_exp. reflexivity. }
-  assert (S : forall k, Rabs (p k) = tol * exp (x * ln (1 + eps / c)) / (1 + eps / c) ^ k).
-  { intro k. rewrite <- D, <- (iterates_in_size C E k). specialize (W k).
-    set (power := (1 + eps / c) ^ k) in *. clearbody power. field. lra. }
-  split.
-  - rewrite S, V. apply Rlt_div_l; [apply exp_pos | ]. apply Rmult_lt_compat_l; [exact T | ].
-    apply exp_increasing, Rmult_lt_compat_r; lra.
-  - intros k K. rewrite S, V. apply Rle_div_r; [apply exp_pos | ].
-    apply Rmult_le_compat_l; [lra | ].
-    assert (INR k <= x).
-    { assert (INR k + 1 <= INR n) by (rewrite <- S_INR; apply le_INR; exact K). lra. }
-    destruct (Rle_lt_or_eq_dec (INR k) x) as [J | ->]; [assumption | | lra].
-    left. apply exp_increasing, Rmult_lt_compat_r; lra.
+  split; [apply K; lra | ].
+  intros k J. apply Rnot_lt_le. intro Q. apply K in Q. apply (le_INR (S k)) in J. rewrite S_INR in J. lra.
 Qed.
 
 End Iterates.

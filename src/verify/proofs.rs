@@ -212,16 +212,6 @@ mod tests {
         assert!(!hold(&[rate()], MutationOutcome::Equivalent, vec![redundant(&rate())]));
     }
 
-    #[test]
-    fn dropped_hypotheses_are_listed_by_claim() {
-        let dropped = vec![redundant(&wrong()), redundant(&rate())];
-        let proofs = Proofs { mutation: MutationReport { mutants: vec![], dropped }, ..Proofs::default() };
-        let names: Vec<_> = proofs.dropped(&rate()).map(|dropped| dropped.name).collect();
-        assert_eq!(names, ["rate"]);
-        let proved = ProofAttempt::of(wrong().only_assuming([&hypotheses().penalty]));
-        assert_eq!((proved.hypotheses(), proved.status()), (vec!["ε > 0".to_string()], "refuted"));
-    }
-
     /// JSON contains all quantities of the claim as texts.
     #[cfg(feature = "serde")]
     #[test]

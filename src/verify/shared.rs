@@ -40,12 +40,7 @@ mod tests {
     fn shared_functions_are_those_that_every_claim_uses() {
         assert_eq!(of("1.13", &["two-forms"]), ["penalty::deflection", "penalty::deflection_divided"]);
         assert_eq!(of("1.13", &["two-forms", "rate"]), ["penalty::deflection"]);
-        assert_eq!(of("1.13", &[]), [""; 0]);
-    }
-
-    /// The derivatives (1.10) and (1.3) have the rules in common, and nothing else.
-    #[test]
-    fn rules_of_differentiation_belong_to_no_function() {
+        // The rules of differentiation belong to no function.
         assert_eq!(of("1.10", &["force"]), [""; 0]);
     }
 }

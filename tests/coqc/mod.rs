@@ -162,10 +162,3 @@ pub fn accepts(name: &str, library: &str, development: &Development) {
         files = later;
     }
 }
-
-#[test]
-fn names_of_axioms_are_extracted() {
-    let printed = "Axioms:\nA.one : forall P : Prop,\n  P\nB.two\n  : nat\n";
-    assert_eq!(axioms(printed).into_iter().collect::<Vec<_>>(), ["A.one", "B.two"]);
-    assert!(axioms("Closed under the global context\n").is_empty());
-}

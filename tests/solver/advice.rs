@@ -21,18 +21,6 @@ fn eta_of(bits: u32) -> Exact {
     Exact::power_of_two(-(bits as i32))
 }
 
-/// With at most three bits 1 − 8 η ≤ 0, so no tolerance is guaranteed.
-#[test]
-fn with_few_bits_nothing_is_guaranteed() {
-    let system = example().map(exact);
-    for bits in 0..6 {
-        for (eps, tolerance) in [("1", "1"), ("1e9", "1e9"), ("1e-9", "1e9"), ("1e9", "1e-9")] {
-            let guaranteed = guaranteed_max_augmentations(&system, &q(eps), &q(tolerance), &eta_of(bits));
-            assert_eq!(guaranteed, Ok(None), "{bits} bits");
-        }
-    }
-}
-
 /// m g of 10 bits is rounded to 10 bits, so the coarsest parameter determines the floor. A tolerance between
 /// this floor and that of the finest parameter is not guaranteed.
 #[test]

@@ -162,19 +162,6 @@ fn rationals_meet_every_tolerance() {
     });
 }
 
-/// 4 p + 8 p² = 2 has the irrational root p = (√5 − 1)/4, for which (4 p + 1)² = 5.
-#[test]
-fn an_irrational_root_has_rational_bounds() {
-    holds(1..300i32, |digits| {
-        let (s, tolerance) = (example().map(exact), Exact::power_of_two(-digits));
-        let found = solve_functional(&s, &[int(8)], &tolerance, |[eps], p| cubic(eps, p)).unwrap();
-        let [lower, upper] = ends(&found.bounds.penetration);
-        let [below, above] = [&lower, &upper].map(|p| power(&(int(4) * p + int(1)), 2));
-        assert!(below < int(5) && int(5) < above);
-        assert!(lower.bit_length() < 4 * 300);
-    });
-}
-
 /// Condition 3: with the penalty that is found the exact root is below the tolerance.
 #[test]
 fn the_found_penalty_meets_the_tolerance() {

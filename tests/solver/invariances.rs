@@ -63,34 +63,6 @@ fn any_units_in_rationals() {
     holds((any_state(WIDE), units), |(case, units)| Units::new(units.clone()).do_not_matter(case));
 }
 
-/// A radius has some units of underflow, 2⁻¹⁴⁹, which are the same in all units; a divisor of 2⁻¹⁸ makes them
-/// 2⁻¹²⁹. Beside the last bit of what is larger than this, 2⁻⁸⁴ of a value and 2⁻¹⁰⁸ of its radius, they turn no
-/// rounding but one of 2²¹.
-fn is_far_from_underflow(case: &Case<Exact>) -> bool {
-    let is_small = |x: f32| x != 0.0 && x.abs() < 2f32.powi(-60);
-    !case.rounded(&1f32).solutions(30).into_iter().any(|(_, _, answer)| {
-        let Bounds { deflection, penetration, contact_force, .. } = answer.bounds;
-        [deflection, penetration, contact_force].iter().any(|x| is_small(x.lower) || is_small(x.upper))
-    })
-}
-
-/// Units that differ by powers of two: equal bit for bit, bounds and step counts included.
-#[test]
-fn units_of_powers_of_two_in_floats() {
-    let exponents = |most: i32| prop::array::uniform3(-most..=most);
-    let cases = any_state(NARROW).prop_filter("no underflow", is_far_from_underflow);
-    holds((cases, exponents(6)), |(case, exponents)| {
-        Units::new(exponents.map(|n| 2f32.powi(n))).do_not_matter(&case.rounded(&1f32));
-    });
-    holds((any_state(WIDE), exponents(100)), |(case, exponents)| {
-        Units::new(exponents.map(|n| 2f64.powi(n))).do_not_matter(&case.rounded(&1f64));
-    });
-    holds((any_state(WIDE), exponents(9999), 4u32..200), |(case, exponents, bits)| {
-        let units = exponents.map(|n| Exact::power_of_two(n).to_mpfr(*bits));
-        Units::new(units).do_not_matter(&case.rounded(&float(*bits)));
-    });
-}
-
 /// Only H − l matters, the position of the support is arbitrary; and only m g, so that a heavier mass with a
 /// smaller acceleration has the same deflection.
 #[test]

@@ -44,7 +44,7 @@ fn the_sign_of_a_rational_is_known() {
     }
 }
 
-/// An f64 that violates the law of this index; none for 8; 9 underflows to 0 too early; 10 and 11 have wrong integers.
+/// An f64 that violates the law of this index; none for 8; 10 and 11 have wrong integers.
 #[derive(Clone, Debug, PartialEq, PartialOrd)]
 struct Breaks<const LAW: usize>(f64);
 
@@ -60,7 +60,7 @@ impl<const LAW: usize> Zero for Breaks<LAW> {
         Breaks(0.0)
     }
     fn is_zero(&self) -> bool {
-        self.0 == 0.0 || LAW == 9 && self.0.abs() < 1e-90
+        self.0 == 0.0
     }
 }
 impl<const LAW: usize> One for Breaks<LAW> {
@@ -149,43 +149,4 @@ fn a_violated_law_is_named() {
         assert_eq!(found.as_ref().map_err(|broken| broken.law), Err(law), "{found:?}");
     }
     assert_eq!(tried::<8>(), Ok(()));
-}
-
-/// Numbers of equal magnitude, whose sums of products cancel only with a rounded a + c.
-#[test]
-fn a_sum_that_cancels_is_tried() {
-    let found = laws::check_scalar_laws(&[1.0, 1.0 / 3.0, 0.1].map(Breaks::<7>), |x| exact(&x.0));
-    assert_eq!(found.unwrap_err().law, ScalarLaw::SignOfSum);
-}
-
-/// The message contains the result and the expected value. 1e100 is 1000000000000000015902891109759918…
-#[test]
-fn a_violated_law_reports_its_counterexample() {
-    let said = |found: Result<(), LawViolation>| found.unwrap_err().to_string();
-    let order = laws::check_scalar_laws(&[1.0, -1.0].map(Breaks::<0>), |x| exact(&x.0));
-    assert_eq!(
-        said(order),
-        "the law Order is violated: Breaks(1.0) min Breaks(-1.0): Breaks(1.0), expected -1"
-    );
-    assert_eq!(
-        said(tried::<10>()),
-        "the law Integer is violated: the integer -16777216: Breaks(2.0), expected -16777216"
-    );
-    let zero = laws::check_scalar_laws(&[Breaks::<9>(1e-100)], |x| exact(&x.0));
-    assert_eq!(said(zero), "the law Order is violated: is_zero of Breaks(1e-100): true, expected false");
-    let finite = laws::check_scalar_laws(&[Breaks::<1>(1e100)], |x| exact(&x.0));
-    let value = "1.00000000000000001590289110976e100";
-    assert_eq!(said(finite), format!("the law Finite is violated: Breaks(1e100), which is {value}"));
-    for (found, what) in [
-        (tried::<2>(), "the enclosure of Breaks("),
-        (tried::<2>(), "): between Breaks("),
-        (tried::<3>(), ": between Breaks("),
-        (tried::<4>(), ": magnitude Breaks("),
-        (tried::<5>(), ": sign Some("),
-        (tried::<6>(), "to the power of "),
-        (tried::<7>(), ", expected "),
-    ] {
-        let said = said(found);
-        assert!(said.contains(what), "{said}");
-    }
 }

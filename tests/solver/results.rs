@@ -91,49 +91,23 @@ fn direct_rationals_are_their_own_bounds() {
     });
 }
 
-/// R = 0 in rationals, while floats round m g and c (H − l) differently: m = c |a − b|, g = ±(a + b), H = a²,
-/// l = b², where a is a multiple of a power of two. Each parameter fits the bits of `like`; the products and
-/// H − l need not, and three times in four they are rounded alike.
-fn grazing_but_for_rounding<T: Float>(bits: u32, like: T) -> impl Strategy<Value = SpringMass<Exact>> {
-    let odd = |bits: u32| (0..1 << (bits - 1)).prop_map(|n| int(2 * n + 1));
-    let half = bits / 2 - 2;
-    let systems = (odd(half), odd(half), odd(bits / 4), 3..=bits as i32 / 4).prop_map(|(a, b, c, shift)| {
-        let a = a * Exact::power_of_two(shift);
-        let (sum, m) = (&a + &b, &c * (&a - &b).abs());
-        SpringMass { g: if a < b { -sum } else { sum }, h: &a * &a, l: &b * &b, c, m }
-    });
-    systems.prop_filter("rounded differently", move |s| {
-        !system::reaction(&s.map(|x| like.round_from_exact(x).unwrap())).is_zero()
-    })
-}
-
-/// At grazing there is no force, not even one of an ulp.
-fn grazing_has_no_force_at_all<T: Float>(s: &SpringMass<Exact>, like: &T) {
-    let system = s.map(|x| like.round_from_exact(x).unwrap());
-    assert_eq!(system.map(exact), *s, "the parameters fit");
-    let [eps, tolerance] = [(); 2].map(|()| like.clone());
-    let case = Case { system, eps, start: T::zero(), tolerance };
-    for (plane, method, answer) in case.solutions(3) {
-        assert_eq!(answer.state, State::Grazing);
-        if matches!(method, Method::Penalty { .. }) {
-            continue;
-        }
-        let none = Interval { lower: T::zero(), upper: T::zero() };
-        assert_eq!((&answer.bounds.penetration, &answer.bounds.contact_force), (&none, &none));
-        if method == Method::Lagrange {
-            assert_eq!((answer.contact_force, answer.multiplier), (T::zero(), Some(T::zero())), "{plane:?}");
+/// m g = c (a − b) (a + b) = c (a² − b²) = c (H − l), where f32 rounds the products and H − l differently.
+#[test]
+fn grazing_has_no_force_however_it_is_rounded() {
+    let mut rounded = 0;
+    for (n, b) in (2001..4001).step_by(100).flat_map(|n| (1001..2001).step_by(50).map(move |b| (n, b))) {
+        let a = 64 * n;
+        let system = SpringMass { c: 3, m: 3 * (a - b), g: a + b, l: b * b, h: 1 };
+        let system = SpringMass { h: int(a) * int(a), ..system.map(|x| int(*x)) };
+        let floats = system.map(|x| x.to_f32().unwrap());
+        assert_eq!(floats.map(exact), system, "the parameters fit");
+        rounded += u32::from(!system::reaction(&floats).is_zero());
+        for (_, solve) in planes() {
+            let answer = solve(&floats, &Method::Lagrange).unwrap();
+            assert_eq!((answer.state, answer.contact_force), (State::Grazing, 0.0));
         }
     }
-}
-
-#[test]
-fn grazing_has_no_force_in_f32() {
-    holds(grazing_but_for_rounding(24, 1f32), |s| grazing_has_no_force_at_all(s, &1f32));
-}
-#[test]
-fn grazing_has_no_force_in_f64_and_mpfr() {
-    holds(grazing_but_for_rounding(53, 1f64), |s| grazing_has_no_force_at_all(s, &1f64));
-    holds(grazing_but_for_rounding(40, float(40)), |s| grazing_has_no_force_at_all(s, &float(40)));
+    assert!(rounded > 100, "{rounded}");
 }
 
 // Arguments.

@@ -309,15 +309,3 @@ pub fn any_state(span: i32) -> BoxedStrategy<Case<Exact>> {
 pub fn in_contact(span: i32) -> BoxedStrategy<Case<Exact>> {
     with_sign(span, &[1])
 }
-/// Systems with R = 0 in rationals (in floats: close to 0).
-pub fn grazing(span: i32) -> BoxedStrategy<Case<Exact>> {
-    with_sign(span, &[0])
-}
-/// Systems with R < 0.
-pub fn separated(span: i32) -> BoxedStrategy<Case<Exact>> {
-    with_sign(span, &[-1])
-}
-/// Systems with R ≠ 0, for which an iteration makes progress.
-pub fn not_grazing(span: i32) -> BoxedStrategy<Case<Exact>> {
-    with_sign(span, &[1, -1])
-}

@@ -30,7 +30,10 @@ impl Point {
     /// Sets the value of one symbol.
     pub(crate) fn with(&self, symbol: &'static str, x: Exact) -> Self {
         let mut point = self.clone();
-        point.set(symbol, x);
+        match point.0.iter_mut().find(|(name, _)| *name == symbol) {
+            Some((_, value)) => *value = x,
+            None => point.0.push((symbol, x)),
+        }
         point
     }
 
@@ -54,36 +57,24 @@ impl Point {
         self.coordinates().all(|(name, x)| !SCALES.contains(&name) || is_power_of_two(x))
     }
 
-    /// Returns the point [adjusted](adjust) to hypotheses; `None` if not all hold in the end.
-    pub(crate) fn adjusted_to(
-        mut self,
+    /// Returns the point adjusted to one hypothesis after the other; `None` if not all hold in the end. A
+    /// hypothesis that does not hold is solved for its symbol, in which it is linear, so that its quantity becomes
+    /// what `target` returns.
+    pub fn adjusted_to(
+        self,
         hypotheses: &[Hypothesis],
-        target: impl Fn(Relation) -> Exact,
+        mut target: impl FnMut(&Hypothesis, &Self) -> Option<Exact>,
     ) -> Option<Self> {
-        adjust(&mut self, hypotheses, |hypothesis, _| Some(target(hypothesis.relation)))?;
-        self.has_valid_scales().then_some(self)
-    }
-}
-
-/// Values of symbols that can be changed.
-pub trait Coordinates {
-    /// Returns the value of a symbol.
-    fn get(&self, symbol: &'static str) -> Exact;
-
-    /// Sets the value of a symbol.
-    fn set(&mut self, symbol: &'static str, x: Exact);
-}
-
-impl Coordinates for Point {
-    fn get(&self, symbol: &'static str) -> Exact {
-        self.at(symbol)
-    }
-
-    fn set(&mut self, symbol: &'static str, x: Exact) {
-        match self.0.iter_mut().find(|(name, _)| *name == symbol) {
-            Some((_, value)) => *value = x,
-            None => self.0.push((symbol, x)),
+        let mut adjusted = self;
+        for hypothesis in hypotheses {
+            if !admits(&|symbol| adjusted.at(symbol), hypothesis) {
+                let target = target(hypothesis, &adjusted)?;
+                let x = hypothesis.solve(&|symbol| adjusted.at(symbol), &target)?;
+                adjusted = adjusted.with(hypothesis.solved_for, x);
+            }
         }
+        // Adjusting to one hypothesis may violate another.
+        adjusted.satisfies(hypotheses).then_some(adjusted)
     }
 }
 
@@ -93,28 +84,6 @@ fn admits(symbol: &impl Fn(&'static str) -> Exact, hypothesis: &Hypothesis) -> b
         Op::Rounded(x) => Rationals { precision: symbol(PRECISION) }.round(x),
         op => piecewise_ops(op),
     })
-}
-
-/// Adjusts coordinates to one hypothesis after the other; `None` if not all hold in the end. A hypothesis that
-/// does not hold is solved for its symbol, in which it is linear, so that its quantity becomes what `target`
-/// returns.
-pub fn adjust<C: Coordinates>(
-    at: &mut C,
-    hypotheses: &[Hypothesis],
-    mut target: impl FnMut(&Hypothesis, &C) -> Option<Exact>,
-) -> Option<()> {
-    let mut is_changed = false;
-    for hypothesis in hypotheses {
-        if !admits(&|symbol| at.get(symbol), hypothesis) {
-            let target = target(hypothesis, at)?;
-            let x = hypothesis.solve(&|symbol| at.get(symbol), &target)?;
-            at.set(hypothesis.solved_for, x);
-            is_changed = true;
-        }
-    }
-    // Adjusting to one hypothesis may violate another.
-    let holds = !is_changed || hypotheses.iter().all(|h| admits(&|symbol| at.get(symbol), h));
-    holds.then_some(())
 }
 
 /// Formats the point as `a = 1, b = -2`.
@@ -194,10 +163,10 @@ pub fn constructed_points(
         let target = small_fraction(&mut random(INTEGER_POINTS + i, ""));
         let point = Point::new(symbols.iter().map(|symbol| (*symbol, constructed_coordinate(i, symbol))));
         // A quantity that may be 0 becomes 0 at every third point.
-        point.adjusted_to(hypotheses, |relation| match relation {
-            Relation::Positive => target.clone(),
-            Relation::NonNegative if i % 3 > 0 => target.clone(),
-            Relation::NonNegative | Relation::Zero => Exact::zero(),
+        point.adjusted_to(hypotheses, |hypothesis, _| match hypothesis.relation {
+            Relation::Positive => Some(target.clone()),
+            Relation::NonNegative if i % 3 > 0 => Some(target.clone()),
+            Relation::NonNegative | Relation::Zero => Some(Exact::zero()),
         })
     })
 }
@@ -214,81 +183,4 @@ fn constructed_coordinate(point: u64, symbol: &str) -> Exact {
 /// Draws a quotient of 1 to 9 and 1 to 3.
 fn small_fraction(random: &mut Rand64) -> Exact {
     Exact::from(Rational::from((random.rand_range(1..10), random.rand_range(1..4))))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::number::Tree;
-    use std::collections::HashSet;
-
-    fn all<T: Into<Exact>>(numbers: impl IntoIterator<Item = T>) -> HashSet<Exact> {
-        numbers.into_iter().map(Into::into).collect()
-    }
-
-    #[test]
-    fn every_fourth_integer_point_has_a_wider_range() {
-        let (larger, small): (Vec<_>, Vec<_>) = (0..INTEGER_POINTS).partition(|point| point % 4 == 3);
-        let drawn = |points: Vec<u64>| all(points.into_iter().map(|point| integer_coordinate(point, "c")));
-        assert_eq!(drawn(small), all(-SMALL_RANGE..=SMALL_RANGE));
-        assert_eq!(drawn(larger), all(-LARGE_RANGE..=LARGE_RANGE));
-        // About three in seven are positive.
-        let hypotheses = [Hypothesis::new(Relation::Positive, Tree::symbol("c"))];
-        let admissible: Vec<_> = integer_points(&hypotheses, &["c"]).collect();
-        assert!(
-            (INTEGER_POINTS as usize / 3..INTEGER_POINTS as usize / 2).contains(&admissible.len()),
-            "{}",
-            admissible.len()
-        );
-        assert!(admissible.iter().all(|point| point.at("c") > Exact::zero()));
-    }
-
-    #[test]
-    fn precisions_and_scales_are_powers_of_two() {
-        let drawn = |symbol: &str| all((0..INTEGER_POINTS).map(|point| integer_coordinate(point, symbol)));
-        assert_eq!(drawn(PRECISION), all(PRECISIONS.map(Exact::power_of_two)));
-        for scale in SCALES {
-            assert_eq!(drawn(scale), all((-4..=4).map(Exact::power_of_two)));
-        }
-        let third: Exact = "1/3".parse().unwrap();
-        let rounded =
-            ["4", "1/4", "12", "2"].map(|n| Rationals { precision: n.parse().unwrap() }.round(&third));
-        assert_eq!(rounded, [Some("3/8".parse().unwrap()), None, None, None]);
-    }
-
-    #[test]
-    fn constructed_points_have_small_fractions_of_both_signs() {
-        let drawn = all(constructed_points(&[], &["c", "u"]).map(|point| point.at("c")));
-        let size = |x: &Exact| x.as_rational().clone().abs();
-        let fits = |x: &Exact| (1..10).any(|n| (1..4).any(|d| size(x) == Rational::from((n, d))));
-        assert!(drawn.iter().all(fits), "{drawn:?}");
-        // A third of them are negative.
-        let negative = drawn.iter().filter(|x| **x < Exact::zero()).count();
-        assert!((drawn.len() / 6..drawn.len() / 2).contains(&negative), "{drawn:?}");
-        // No draw of a precision and a scale is rejected.
-        let rounded = constructed_points(&[], &[PRECISION, SCALES[0]]);
-        assert_eq!(rounded.count() as u64, CONSTRUCTED_POINTS);
-    }
-
-    #[test]
-    fn points_are_adjusted_only_if_a_hypothesis_fails_and_a_third_of_them_to_zero() {
-        let u = || Tree::symbol("u");
-        let at = |hypotheses: &[Hypothesis]| -> Vec<Exact> {
-            constructed_points(hypotheses, &["u"]).map(|point| point.at("u")).collect()
-        };
-        let adjusted = |relation, value| at(&[Hypothesis::new(relation, value)]);
-        // All drawn values are less than 20.
-        let (far, zero) = (|| u() - Tree::from(20), Exact::from(20));
-        for (relation, touching) in [
-            (Relation::Positive, 0),
-            (Relation::NonNegative, CONSTRUCTED_POINTS / 3),
-            (Relation::Zero, CONSTRUCTED_POINTS),
-        ] {
-            let points = adjusted(relation, far());
-            assert_eq!(points.iter().filter(|x| **x == zero).count() as u64, touching, "{relation:?}");
-            assert!(points.len() as u64 == CONSTRUCTED_POINTS && points.iter().all(|x| *x >= zero));
-        }
-        // All drawn values exceed −20 and are not changed.
-        assert_eq!(adjusted(Relation::Positive, u() + Tree::from(20)), at(&[]));
-    }
 }

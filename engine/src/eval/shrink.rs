@@ -71,11 +71,9 @@ impl Simplification<'_> {
     fn improves(&mut self, symbol: &'static str, x: Exact) -> bool {
         let (point, hypotheses) = (self.best.point.with(symbol, x), self.statement.hypotheses());
         let mut candidates = Vec::new();
-        candidates.extend(
-            point
-                .clone()
-                .adjusted_to(hypotheses, |relation| Exact::from(i32::from(relation == Relation::Positive))),
-        );
+        candidates.extend(point.clone().adjusted_to(hypotheses, |hypothesis, _| {
+            Some(Exact::from(i32::from(hypothesis.relation == Relation::Positive)))
+        }));
         if let Failure::Undefined(divisor) = &self.best.failure {
             let others = divisor.symbols().into_iter().filter(|other| *other != symbol);
             let undefined = others.filter_map(|other| with_divisor_zero(divisor, other, &point));

@@ -13,28 +13,6 @@ const RIGHT: Trial = Trial::Decided(true);
 const WRONG: Trial = Trial::Decided(false);
 
 #[test]
-fn every_listed_experiment_holds_for_the_right_functions() {
-    fn listed<T>(all: Vec<Experiment<T>>, equation: &str, name: &str, x: &Case<T>) -> Trial {
-        let found = all.iter().find(|e| (e.equation, e.name) == (equation, name));
-        (found.unwrap_or_else(|| panic!("{equation} {name}")).check)(x)
-    }
-    for (equation, name) in [
-        ("1.6", "exact-state"),
-        ("1.8", "bounds-contain"),
-        ("1.13", "bounds-contain"),
-        ("1.33", "promise"),
-        ("note 8", "units-of-solutions"),
-    ] {
-        assert_eq!(listed(experiments::<f64>(), equation, name, &case(10)), RIGHT, "{equation} {name}");
-    }
-}
-
-#[test]
-fn powers_of_two_have_their_exponents() {
-    assert_eq!([-2, -1, 0, 1, 3].map(power_of_two::<f64>), [0.25, 0.5, 1.0, 2.0, 8.0]);
-}
-
-#[test]
 fn a_wrong_state_is_detected() {
     let all = [State::Contact, State::Grazing, State::Separated];
     for (g, right) in [9, 8, 7].into_iter().zip(all) {

@@ -112,23 +112,3 @@ fn mutation((Mutant { site, mutation }, outcome): &(Mutant, MutationOutcome)) ->
     };
     Mutation { at: site.to_string(), mutation: mutation.to_string(), status, by, counterexample }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::claims::claims;
-
-    /// All hypotheses of the chapter are necessary, so no report contains the first status.
-    #[test]
-    fn every_outcome_without_a_hypothesis_has_a_status() {
-        let claim = claims().find(|claim| !claim.hypotheses().is_empty()).unwrap();
-        for (outcome, status) in
-            [(DropOutcome::StillProved, "still_proved"), (DropOutcome::Undecided, "unknown")]
-        {
-            let hypothesis = claim.hypotheses()[0].clone();
-            let without =
-                DroppedHypothesis { equation: claim.equation(), name: claim.name(), hypothesis, outcome };
-            assert_eq!(dropped(&without).status, status);
-        }
-    }
-}
