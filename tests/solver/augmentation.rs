@@ -2,7 +2,7 @@
 //! converges for every ε > 0 is in `properties`, and the closed forms of its iterates are in `closed_form`.
 
 use crate::strategies::*;
-use spring_mass_contact::chapter::{augmented, contact, structure};
+use spring_mass_contact::chapter::{augmented, contact, rounding, structure};
 use spring_mass_contact::rug::Integer;
 use spring_mass_contact::solver::exact_augmentation_count;
 
@@ -192,4 +192,38 @@ fn a_bound_of_the_tolerance_is_not_below_it() {
     let bound = f64::magnitude(&off);
     assert_eq!(solved(&s, bound), (Outcome::Stagnated, Some(0)));
     assert_eq!(solved(&s, bound.next_up()), (Outcome::Converged, Some(0)));
+}
+
+/// While p̂ ≥ 0, λ̂ increases strictly until it is a fixed point or p̂ is 0 or changes sign, and p̂ never
+/// increases. A fixed point has |p(û)| ≤ η|H| + η (1 + η)²/(1 − η) |λ|/ε. The loop always terminates, without
+/// a limit.
+fn monotone_until_rounding<T: Float>(case: &Case<T>) {
+    let floats = Case { start: case.round(&int(0)), ..case.clone() };
+    let case = floats.exact();
+    for plane in [Plane::Unilateral, Plane::Bilateral] {
+        let mut steps = floats.steps(plane);
+        let mut last = steps.step();
+        // Next to grazing p̂₀ may be rounded to 0 or below, and there is nothing to follow.
+        while last.penetration > T::zero() && *steps.multiplier() != last.multiplier {
+            assert!(*steps.multiplier() > last.multiplier, "k = {}", last.k);
+            let step = steps.step();
+            assert!(step.penetration <= last.penetration, "k = {}", last.k);
+            last = step;
+        }
+        let p = exact(&last.deflection) - system::gap(&case.system);
+        let lambda = exact(&last.multiplier);
+        let fixed = rounding::fixed_point_error(&case.system, &case.eps, &lambda, &floats.precision());
+        // p̂ ≤ 0 ended it instead: then see the next law.
+        assert!(last.penetration <= T::zero() || p.abs() <= fixed);
+    }
+}
+
+/// Systems in contact with ε/c large enough for a short iteration.
+fn quick_contact(span: i32) -> BoxedStrategy<Case<Exact>> {
+    let cases = (in_contact(span), -4..PENALTIES);
+    cases.prop_map(|(case, e)| case.with_penalty(&Exact::power_of_two(e))).boxed()
+}
+
+in_every_float! {
+    monotone_until_rounding from quick_contact;
 }

@@ -67,7 +67,33 @@ fn bounds_are_narrow<T: Float>(case: &Case<T>) {
     }
 }
 
+/// The bounds of every method contain what is exact for its parameters; the plane never pulls, despite rounding.
+fn exact_answers_are_enclosed<T: Float>(floats: &Case<T>) {
+    let case = floats.exact();
+    for ((plane, method, answer), (.., exactly)) in floats.solutions(50).into_iter().zip(case.solutions(0)) {
+        assert_eq!(answer.state, exactly.state);
+        assert!(plane == Plane::Bilateral || answer.contact_force >= T::zero(), "{method:?}");
+        let by_iteration = matches!(method, Method::Augmented { .. });
+        let Solution { deflection, penetration, contact_force, .. } = exactly;
+        let [u, p, n] = match (by_iteration, plane) {
+            (false, _) => [deflection, penetration, contact_force],
+            (true, Plane::Unilateral) => {
+                let u = resting(&case.system);
+                [u.clone(), u - system::gap(&case.system), pushing(&case.system)]
+            }
+            (true, Plane::Bilateral) => [system::gap(&case.system), int(0), case.reaction()],
+        };
+        let within = &answer.bounds;
+        assert!(
+            encloses(&within.deflection, &u) && encloses(&within.penetration, &p),
+            "{method:?} {plane:?}"
+        );
+        assert!(encloses(&within.contact_force, &n), "{method:?} {plane:?}");
+    }
+}
+
 in_every_float! {
+    exact_answers_are_enclosed from any_state;
     bounds_are_narrow from any_state;
 }
 
