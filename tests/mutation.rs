@@ -3,7 +3,7 @@
 use crate::strategies::is_deep;
 use rayon::prelude::*;
 use spring_mass_contact::claims::{hypotheses, registry, statements};
-use spring_mass_contact::eval::{Point, Verdict, check, constructed_points, integer_points};
+use spring_mass_contact::eval::{Point, Verdict, constructed_points, integer_points, verdict_at};
 use spring_mass_contact::formula::claim::PRECISION;
 use spring_mass_contact::formula::statement::minimum_precision;
 use spring_mass_contact::formula::{Hypothesis, Relation, Statement};
@@ -91,8 +91,8 @@ fn weakened(statement: &Statement, hypothesis: &Hypothesis) -> Option<Statement>
 fn sample_step(statement: &Statement) -> usize {
     match statement.kind() {
         _ if is_deep() => 1,
-        "drift" => 140,
-        _ => 20,
+        "drift" => 280,
+        _ => 40,
     }
 }
 
@@ -124,7 +124,7 @@ fn goal_by_goal((name, statement): (String, Statement)) -> Vec<(String, Statemen
 
 #[test]
 fn refuted_variants_are_not_proved() {
-    let fails = |s: &Statement, point: &Point| matches!(check(s, point), Verdict::Fails(..));
+    let fails = |s: &Statement, point: &Point| matches!(verdict_at(s, point), Verdict::Fails(..));
     let symbols = symbols();
     let audited = neighbours(&statements()).into_par_iter().flat_map_iter(goal_by_goal);
     let audited = audited.map(|(name, s)| {

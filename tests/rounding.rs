@@ -3,7 +3,7 @@
 use proptest::prelude::any;
 use spring_mass_contact::chapter::{augmented, contact};
 use spring_mass_contact::claims::{claims, computed, registry, symbols};
-use spring_mass_contact::eval::{Point, Verdict, check};
+use spring_mass_contact::eval::{Point, Verdict, verdict_at};
 use spring_mass_contact::formula::claim::{PRECISION, within};
 use spring_mass_contact::formula::statement::Role;
 use spring_mass_contact::formula::{Hypothesis, Proposition, Relation, Statement};
@@ -29,7 +29,7 @@ fn run(bits: i32, numbers: &'static str) -> Point {
 }
 
 fn holds(claim: &Statement, point: &Point) -> bool {
-    match check(claim, point) {
+    match verdict_at(claim, point) {
         Verdict::Holds => true,
         Verdict::Fails(..) => false,
         other => panic!("{} {}: {other:?} at {point}", claim.equation(), claim.name()),

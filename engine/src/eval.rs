@@ -18,8 +18,8 @@ mod tests;
 pub use computed::{Floats, RoundedRationals};
 pub use domain::{Balls, Decidable, Domain, Rationals, Value};
 pub use evaluation::{
-    Compiled, Evaluation, Failure, Instance, Test, UNFOLDED_MEMBERS, Verdict, check, independent_symbols,
-    instances, premises,
+    Compiled, Evaluation, Failure, Instance, Test, UNFOLDED_MEMBERS, Verdict, independent_symbols, instances,
+    premises, verdict_at,
 };
 pub use sample::{Point, constructed_points, first_integer_points, integer_points};
 pub use shrink::Counterexample;

@@ -400,8 +400,8 @@ impl Compiled {
     }
 }
 
-/// Evaluates a statement at a point.
-pub fn check(statement: &Statement, point: &Point) -> Verdict {
+/// Returns the verdict of a statement at a point.
+pub fn verdict_at(statement: &Statement, point: &Point) -> Verdict {
     if point.satisfies(statement.hypotheses()) {
         Compiled::new(statement).verdict(point)
     } else {

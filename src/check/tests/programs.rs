@@ -31,7 +31,7 @@ fn every_edit_is_named() {
     for problems in [default_problems(), with_penalties(default_problems())] {
         let all = Reference::of(&problems).edits();
         let all_results: Vec<_> = all.iter().map(|mistake| results(mistake, None)).collect();
-        for (i, mistake) in sample(&all, 80).enumerate() {
+        for (i, mistake) in sample(&all, 160).enumerate() {
             let in_f64 = i % 2 == 1;
             let report = run(&problems, |problem| match in_f64 {
                 true => answer_in_f64(&mistake.program, problem),
@@ -66,7 +66,7 @@ fn answer_in_f64(program: &Program, problem: &Problem) -> Answer {
 #[test]
 fn every_number_is_found() {
     for problems in [default_problems(), with_penalties(default_problems())] {
-        for mistake in sample(Reference::of(&problems).numbers(), 12) {
+        for mistake in sample(Reference::of(&problems).numbers(), 24) {
             let k = number(match mistake.name.as_str() {
                 name if name.contains("augmentation") || name.contains("N/m") => "10000/3",
                 name if name.contains("at most") || name.contains("at least") => "7/3",

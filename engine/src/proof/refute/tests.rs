@@ -1,7 +1,7 @@
 //! Tests of the search for counterexamples.
 
 use super::*;
-use crate::eval::{Failure, Value, check};
+use crate::eval::{Failure, Value, verdict_at};
 use crate::formula::claim::{
     derivative, equal, geometric_limit, induction, limit, non_negative, perturbed_recursion, positive, within,
 };
@@ -39,9 +39,9 @@ fn vanishes() -> Statement {
 fn a_divisor_that_is_zero_is_reported() {
     let root = root();
     let zero_sum = point(&[("c", -1), ("ε", 1)]);
-    assert_eq!(check(&root, &zero_sum), Verdict::Excluded);
-    assert_eq!(check(&root, &point(&[("c", 3)])), Verdict::Holds);
-    let Verdict::Fails(_, how) = check(&root.without(&above_zero("c")), &zero_sum) else { panic!() };
+    assert_eq!(verdict_at(&root, &zero_sum), Verdict::Excluded);
+    assert_eq!(verdict_at(&root, &point(&[("c", 3)])), Verdict::Holds);
+    let Verdict::Fails(_, how) = verdict_at(&root.without(&above_zero("c")), &zero_sum) else { panic!() };
     assert_eq!(how.to_string(), "undefined: c + ε = 0 is a divisor");
 }
 
@@ -52,7 +52,7 @@ fn limits_are_decided_by_degrees() {
     let Proposition::Limit(of, by, _) = &limit.goals()[0].proposition else { panic!() };
     let tends = |of: Tree, to: i32| {
         let claim = limit.with_proposition(Proposition::Limit(of, by, Tree::from(to)));
-        match check(&claim, &point(&[("R", 2)])) {
+        match verdict_at(&claim, &point(&[("R", 2)])) {
             Verdict::Holds => None,
             Verdict::Fails("", failure) => Some(failure.to_string()),
             other => panic!("{other:?}"),
@@ -83,7 +83,7 @@ fn limits_of_exponentials_are_decided_if_they_are_certain() {
     let (e, by, one) = (x("ε"), "ε", Tree::one());
     let tends = |of: &Tree| {
         let statement = equal("", 0, 0).with_proposition(Proposition::Limit(of.clone(), by, Tree::from(0)));
-        match check(&statement, &point(&[("R", 2)])) {
+        match verdict_at(&statement, &point(&[("R", 2)])) {
             Verdict::Holds => Some(0),
             Verdict::Fails(_, Failure::NotConverging(Some(_))) => Some(1),
             Verdict::Fails(_, Failure::NotConverging(None)) => Some(2),
@@ -110,7 +110,7 @@ fn limits_of_exponentials_are_decided_if_they_are_certain() {
 fn inductions_are_evaluated_at_the_powers_of_their_ratio() {
     let squares = |ratio: i32| {
         let claim = induction("squares", ratio, [Tree::from(1)], |[x]| [&x * &x], [x("q")]);
-        check(&claim, &Point::default())
+        verdict_at(&claim, &Point::default())
     };
     assert_eq!(squares(1), Verdict::Holds);
     assert!(matches!(squares(2), Verdict::Fails("step", Failure::Unequal(..))));
@@ -120,7 +120,8 @@ fn inductions_are_evaluated_at_the_powers_of_their_ratio() {
 #[test]
 fn geometric_limits_include_their_conditions() {
     let q = || x("q");
-    let tends = |ratio: i32, of: Tree| check(&geometric_limit("tends", ratio, of, 1), &point(&[("q", 3)]));
+    let tends =
+        |ratio: i32, of: Tree| verdict_at(&geometric_limit("tends", ratio, of, 1), &point(&[("q", 3)]));
     assert_eq!(tends(0, q() + Tree::one()), Verdict::Holds);
     for ratio in [1, -1, 2] {
         assert!(matches!(tends(ratio, Tree::one()), Verdict::Fails("|ρ| < 1", Failure::Sign(..))));
@@ -133,7 +134,7 @@ fn geometric_limits_include_their_conditions() {
 fn derivatives_of_positive_parts_are_undecided() {
     let slope = |of: Tree| {
         let claim = derivative("slope", of, &x("u"), 7);
-        check(&claim, &point(&[("u", 1)]))
+        verdict_at(&claim, &point(&[("u", 1)]))
     };
     assert_eq!(slope(x("u").positive_part()), Verdict::Undecided);
     let undefined = slope(x("u").positive_part() / Tree::from(0));
@@ -158,7 +159,7 @@ fn the_tightest_point_attains_the_largest_fraction_of_a_bound() {
     assert_eq!(tightest_point(&negative).unwrap().1, "1/2".parse().unwrap());
     // Half of c is not a bound there.
     let half = within("half", x("u") * Tree::from(2), x("c")).assuming(&hypotheses);
-    let at_end = check(&half, &point(&[("c", 3), ("u", -3)]));
+    let at_end = verdict_at(&half, &point(&[("c", 3), ("u", -3)]));
     assert!(matches!(at_end, Verdict::Fails("", Failure::BoundExceeded(..))));
 }
 
