@@ -140,7 +140,7 @@ pub enum Status {
     Failed,
 }
 
-/// Writes the name used in JSON and Markdown.
+/// Writes the name used in JSON.
 impl fmt::Display for Status {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.pad(match self {
