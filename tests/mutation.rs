@@ -142,7 +142,7 @@ fn refuted_variants_are_not_proved() {
     });
     let add = |a: [usize; 3], b: [usize; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
     let [planted, raw, proved] = audited.reduce(|| [0; 3], add);
-    assert!(planted > 200 && raw > 200 && proved > 80, "{planted} planted, {raw} raw; {proved} proved");
+    assert!(planted > 200 && raw > 200 && proved > 40, "{planted} planted, {raw} raw; {proved} proved");
 }
 
 #[test]

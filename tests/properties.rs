@@ -3,7 +3,7 @@
 //! floats the same holds to within rounding: see `solver`.
 
 use crate::strategies::*;
-use spring_mass_contact::chapter::penalty;
+use spring_mass_contact::chapter::{contact, penalty};
 
 /// The conditions (1.6), in contact, grazing and separated. Each method has a force in equilibrium, c p + N = R, which
 /// never pulls. The penetration that remains is 0 for the multiplier, ⟨R⟩/(c + ε) for the penalty, and below the
@@ -29,6 +29,7 @@ fn karush_kuhn_tucker_conditions() {
                 Method::Augmented { .. } => {}
             }
         }
+        assert!(contact::kkt(s, &contact::deflection(s), &contact::contact_force(s)).is_zero());
         let answer = solve(s, &Method::Lagrange).unwrap();
         assert!(answer.residuals(s).unwrap().is_zero());
         assert_eq!((answer.deflection, answer.multiplier), (resting(s), Some(pushing(s))));
