@@ -291,8 +291,9 @@ fn a_seed_of_64_bits_determines_the_cases() {
 /// In any notation and order, twice or once, and a name and its number as two words.
 #[test]
 fn equations_are_selected_in_the_order_of_the_chapter() {
-    for command in ["equations", "prove", "verify"] {
-        let (rows, code) = json(&[command, "note", "4", "theorem 1.3.3", "Eq. (1.13)", "1.13"]);
+    for command in ["equations", "prove", "verify --cases 5"] {
+        let numbers = ["note", "4", "theorem 1.3.3", "Eq. (1.13)", "1.13"];
+        let (rows, code) = json(&[&words(command)[..], &numbers].concat());
         let rows = rows.get("equations").unwrap_or(&rows);
         let found: Vec<_> = array(rows).iter().map(|row| row["equation"].as_str().unwrap()).collect();
         assert_eq!((found, code), (vec!["1.13", "Theorem 1.3.3", "note 4"], Some(0)), "{command}");
@@ -301,7 +302,7 @@ fn equations_are_selected_in_the_order_of_the_chapter() {
 
 #[test]
 fn colours_and_widths_of_the_terminal_do_not_matter_to_a_pipe() {
-    for line in ["verify --cases 2 --scalar f64", "equations", "equations 1.13"] {
+    for line in ["verify 1.13 --cases 2 --scalar f64", "equations", "equations 1.13"] {
         let arguments = words(line);
         let usual = contact(&arguments);
         let mut command = command();
