@@ -47,6 +47,7 @@
 //! # Features
 //! - `mpfr` (default): MPFR floats, exact rationals, and all that needs them: certificates, step counts,
 //!   advice and parsing. Builds GMP and MPFR from source through rug, which is LGPL-3.0-or-later.
+//! - `half`: f16 and bf16 of the crate `half`, also as number systems of `verify`.
 //! - `prover`: the modules `formula`, `eval`, `proof`, `claims`, `verify` and `check`.
 //! - `serde`: implements `serde::Serialize` for the results of the solver and of checks, with rationals and MPFR
 //!   numbers as texts.
@@ -74,6 +75,10 @@ pub use provable::{number, operators};
 
 #[doc(no_inline)]
 pub use provable::num_traits;
+
+#[cfg(feature = "half")]
+#[doc(no_inline)]
+pub use half;
 
 #[cfg(feature = "mpfr")]
 #[doc(no_inline)]

@@ -22,8 +22,10 @@ mod tests;
 use crate::claims::{Case, Var, claims, index_of, registry, statements};
 use crate::eval::{Balls, Point, Rationals};
 use crate::formula::Statement;
+#[cfg(feature = "half")]
+use crate::number::Native;
 use crate::number::{Exact, Mpfr, NumberSystem};
-use checker::{Group, add_checks};
+use checker::{CheckedFloat, Group, add_checks};
 pub use coq::coq;
 pub use experiments::{Experiment, Trial, experiments};
 use num_traits::One;
@@ -231,6 +233,10 @@ const BLOCK: u64 = 50;
 /// Proves and checks every claim, in parallel. `progress` receives the numbers of finished and of all pieces
 /// of work.
 ///
+/// # Panics
+/// Panics if a number system is a float of which this build has no type: f16 and bf16 require the feature
+/// `half`.
+///
 /// Always terminates, even for wrong formulas: a claim that is undefined, or whose evaluation panics, fails.
 pub fn verify(options: &Options, progress: &(dyn Fn(usize, usize) + Sync)) -> VerificationReport {
     run(&groups(options), statements(), options, progress)
@@ -303,18 +309,27 @@ fn proof(statement: &Statement) -> ClaimResult {
     }
 }
 
+/// Adds the claims and experiments in balls of a float.
+fn add_balls<T: CheckedFloat>(groups: &mut Vec<Group>, options: &Options, scalar: NumberSystem, like: T) {
+    add_checks(groups, options, (scalar, Balls(like)), claims(), experiments());
+}
+
 /// Returns the claims and experiments of the equations and the number systems, by their hypotheses.
 fn groups(options: &Options) -> Vec<Group> {
     let mut groups = Vec::new();
     for scalar in options.scalars.iter().copied() {
         let all = &mut groups;
         match scalar {
-            NumberSystem::F32 => add_checks(all, options, (scalar, Balls(0f32)), claims(), experiments()),
-            NumberSystem::F64 => add_checks(all, options, (scalar, Balls(0f64)), claims(), experiments()),
-            NumberSystem::Mpfr(bits) => {
-                let balls = Balls(Mpfr::rounded(bits, 0));
-                add_checks(all, options, (scalar, balls), claims(), experiments());
+            NumberSystem::F32 => add_balls(all, options, scalar, 0f32),
+            NumberSystem::F64 => add_balls(all, options, scalar, 0f64),
+            #[cfg(feature = "half")]
+            NumberSystem::F16 => add_balls(all, options, scalar, Native(half::f16::ZERO)),
+            #[cfg(feature = "half")]
+            NumberSystem::BF16 => add_balls(all, options, scalar, Native(half::bf16::ZERO)),
+            NumberSystem::Float(format) => {
+                panic!("no type has the name {}, or its feature is off", format.name)
             }
+            NumberSystem::Mpfr(bits) => add_balls(all, options, scalar, Mpfr::rounded(bits, 0)),
             NumberSystem::Exact => {
                 add_checks(all, options, (scalar, Rationals::unrounded()), claims(), Vec::new());
             }

@@ -42,7 +42,7 @@ pub struct Options {
     #[arg(long, value_name = "T", value_parser = parse_positive, help_heading = "Method")]
     tolerance: Number,
 
-    /// Number system: f32, f64, mpfr:BITS or exact
+    /// Number system: f16, bf16, f32, f64, mpfr:BITS or exact
     #[arg(long, value_name = "S", default_value_t = NumberSystem::F64, help_heading = "Output")]
     scalar: NumberSystem,
     /// Output format
@@ -146,8 +146,7 @@ impl<T: Scalar + ExactText> Report<'_, T> {
         let names: Vec<_> = missing.map(|name| name.name()).collect();
         let scalar = self.options.scalar;
         let digits = match scalar {
-            NumberSystem::F32 => f32::MANTISSA_DIGITS,
-            NumberSystem::F64 => f64::MANTISSA_DIGITS,
+            NumberSystem::Float(format) => format.bits,
             NumberSystem::Mpfr(_) | NumberSystem::Exact => 0,
         };
         let bits = match self.required_precision {

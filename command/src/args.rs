@@ -149,7 +149,8 @@ pub fn distinct(scalars: &[NumberSystem]) -> Vec<NumberSystem> {
 /// Calls a generic function in a number system; `like` is a zero of it.
 macro_rules! in_scalar {
     ($scalar:expr, |$like:ident| $run:expr) => {{
-        use spring_mass_contact::number::{Exact, NumberSystem};
+        use spring_mass_contact::half::{bf16, f16};
+        use spring_mass_contact::number::{Exact, Native, NumberSystem};
         let zero = <Exact as num_traits::Zero>::zero();
         match $scalar {
             NumberSystem::F32 => {
@@ -160,6 +161,15 @@ macro_rules! in_scalar {
                 let $like = &0_f64;
                 $run
             }
+            NumberSystem::F16 => {
+                let $like = &Native(f16::ZERO);
+                $run
+            }
+            NumberSystem::BF16 => {
+                let $like = &Native(bf16::ZERO);
+                $run
+            }
+            NumberSystem::Float(format) => unreachable!("no other format is parsed, but {}", format.name),
             NumberSystem::Mpfr(bits) => {
                 let $like = &zero.to_mpfr(bits);
                 $run

@@ -69,7 +69,7 @@ pub struct Options {
     #[arg(long, help_heading = "Method")]
     bilateral: bool,
 
-    /// Number system: f32, f64, mpfr:BITS or exact
+    /// Number system: f16, bf16, f32, f64, mpfr:BITS or exact
     #[arg(long, value_name = "S", default_value_t = NumberSystem::F64, help_heading = "Output")]
     scalar: NumberSystem,
     /// Show every augmentation, for augmented; csv then has these rows only

@@ -43,7 +43,7 @@ pub struct Options {
     #[arg(long, value_name = "N", default_value = "61", help_heading = "Sweep")]
     points: u64,
 
-    /// Number system, repeatable: f32, f64, mpfr:BITS or exact [default: f64]
+    /// Number system, repeatable: f16, bf16, f32, f64, mpfr:BITS or exact [default: f64]
     #[arg(long = "scalar", value_name = "S", help_heading = "Output")]
     scalars: Vec<NumberSystem>,
     /// Output format

@@ -1,11 +1,12 @@
-//! MPFR numbers and rationals as scalars.
+//! MPFR numbers, floats of num-traits and rationals as scalars.
 
-use crate::number::{Ball, Exact, ExactText, Mpfr, PositivePart, Real, ToExact};
+use crate::number::{Ball, Exact, ExactText, Mpfr, Native, PositivePart, Real, ToExact};
 use crate::solver::scalar::{MAX_BITS, by_ball, power};
 use crate::solver::{Interval, Scalar};
-use num_traits::Zero;
+use num_traits::{Float, Zero};
 use rug::float::Round;
 use std::cmp::Ordering;
+use std::fmt::Debug;
 
 /// Returns `true` if xᵏ has at most [`MAX_BITS`] binary digits.
 fn can_be_written(x: &Exact, k: u64) -> bool {
@@ -28,9 +29,11 @@ impl<T: ExactText> Interval<T> {
 }
 
 by_ball! {
-    Mpfr, |plus: [(&Mpfr, &Mpfr); 2], minus: (&Mpfr, &Mpfr)| {
-        (product(plus[0]) + product(plus[1])).cmp(&product(minus))
-    },
+    [T: Float + Debug] Native<T>, sign_of_sum,
+    fn has_exact_value(&self) -> bool {
+        self.to_exact().is_ok()
+    };
+    [] Mpfr, sign_of_sum,
     fn power(x: &Ball<Mpfr>, k: u64) -> Option<Ball<Mpfr>> {
         // A constant is a rational, and its powers grow in the same way.
         let rational = x.value().precision().is_none().then(|| x.value().to_exact().ok()).flatten();
@@ -43,8 +46,12 @@ by_ball! {
     };
 }
 
+fn sign_of_sum<T: ToExact>([a, b]: [(&T, &T); 2], minus: (&T, &T)) -> Ordering {
+    (product(a) + product(b)).cmp(&product(minus))
+}
+
 /// Returns the exact product of finite numbers. Others are refused before a sign is computed.
-fn product((a, b): (&Mpfr, &Mpfr)) -> Exact {
+fn product<T: ToExact>((a, b): (&T, &T)) -> Exact {
     let [x, y] = [a, b].map(|x| x.to_exact().unwrap_or_else(|_| Exact::zero()));
     x * y
 }

@@ -9,7 +9,7 @@ use rug::float::Round;
 /// A law of [`Scalar`], named after the method concerned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ScalarLaw {
-    /// [`int`](Field::int) is exact up to 2²⁴, in scalars and in enclosures.
+    /// [`int`](Field::int) is exact up to 2⁸ in scalars, and enclosed up to 2²⁴.
     Integer,
     /// Numbers compare as their values do, only 0 is zero, and ⟨·⟩, min and |·| are exact.
     Order,
@@ -89,9 +89,11 @@ struct LawChecker<'a, T> {
 
 impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
     fn of_integers(&self) -> Result<(), LawViolation> {
-        for n in [-16_777_216, 0, 1, 2, 3, 16_777_215] {
+        for n in [-256, 0, 1, 2, 3, 255] {
+            self.is(&T::int(n), &Exact::int(n), ScalarLaw::Integer, || format!("the integer {n}"))?;
+        }
+        for n in [-16_777_216, -257, 0, 1, 2, 3, 16_777_215] {
             let right = Exact::int(n);
-            self.is(&T::int(n), &right, ScalarLaw::Integer, || format!("the integer {n}"))?;
             self.encloses(&E::int(n), &right, ScalarLaw::Integer, || format!("the enclosure of {n}"))?;
         }
         Ok(())

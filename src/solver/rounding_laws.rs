@@ -12,7 +12,7 @@
 //! least ν or increase a bound.
 
 use super::count::count;
-use super::{Plane, SolveError, exact};
+use super::{Plane, SolveError};
 use crate::chapter::{SpringMass, penalty, rounding, structure, system};
 use crate::number::{Exact, NumberSystem, PositivePart, ToExact};
 use num_traits::{One, Zero};
@@ -22,8 +22,7 @@ use rug::Integer;
 /// for machine floats, since the exponents of other numbers are practically unlimited.
 pub(super) fn min_normal<T: ToExact>(like: &T) -> Exact {
     match like.number_system() {
-        NumberSystem::F32 => exact(&f32::MIN_POSITIVE),
-        NumberSystem::F64 => exact(&f64::MIN_POSITIVE),
+        NumberSystem::Float(format) => format.min_normal(),
         NumberSystem::Mpfr(_) | NumberSystem::Exact => Exact::zero(),
     }
 }

@@ -56,7 +56,8 @@ impl<T: Scalar> Interval<T> {
 }
 
 /// Numbers for [`solve`](super::solve): f32, f64, [`Mpfr`](crate::number::Mpfr),
-/// [`Exact`](crate::number::Exact) and user-defined types.
+/// [`Exact`](crate::number::Exact), any other float as [`Native`](crate::number::Native), and user-defined
+/// types.
 ///
 /// The bounds of the solver rest on the requirements of these methods. `laws::check_scalar_laws` checks them
 /// in your own tests. It requires the feature `mpfr`, in your dev-dependencies if your library does without.
@@ -155,6 +156,12 @@ pub trait Scalar: OrderedField {
     /// Returns `true` if the number is neither infinite nor NaN.
     fn is_finite(&self) -> bool;
 
+    /// Returns `true` if the exact value of every finite number is known, as the signs and bounds require. A
+    /// parameter without one is refused.
+    fn has_exact_value(&self) -> bool {
+        true
+    }
+
     /// Returns the number of binary digits, as [`Exact::bit_length`](crate::number::Exact::bit_length) counts
     /// them, of a number whose length grows with arithmetic. The default is 0, for numbers of constant
     /// length. An augmentation whose multipliers become too long ends with an error.
@@ -181,8 +188,8 @@ pub(super) fn power<E: PositivePart>(x: &E, k: u64) -> E {
 pub(super) const MAX_BITS: u64 = 10_000_000;
 
 macro_rules! by_ball {
-    ($($float:ty, $sign:expr $(, $power:item)*;)*) => {$(
-        impl Scalar for $float {
+    ($([$($generics:tt)*] $float:ty, $sign:expr $(, $power:item)*;)*) => {$(
+        impl<$($generics)*> Scalar for $float {
             type Enclosure = Ball<$float>;
             #[inline]
             fn enclose(&self) -> Ball<$float> {
@@ -219,10 +226,10 @@ pub(super) use by_ball;
 mod machine {
     use super::*;
     by_ball! {
-        f32, |plus: [(&f32, &f32); 2], minus: (&f32, &f32)| {
+        [] f32, |plus: [(&f32, &f32); 2], minus: (&f32, &f32)| {
             sign_of_sum(plus.map(widen), widen(minus))
         };
-        f64, |plus: [(&f64, &f64); 2], (a, b): (&f64, &f64)| {
+        [] f64, |plus: [(&f64, &f64); 2], (a, b): (&f64, &f64)| {
             sign_of_sum(plus.map(|(a, b)| (*a, *b)), (*a, *b))
         };
     }

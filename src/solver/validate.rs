@@ -39,6 +39,7 @@ pub enum SolveError {
 
 const POSITIVE: &str = "greater than 0 and finite";
 const FINITE: &str = "finite";
+const COMPLETE: &str = "of a type whose integer_decode returns the whole number";
 
 pub(super) fn require(
     holds: bool,
@@ -50,11 +51,13 @@ pub(super) fn require(
 }
 
 pub(super) fn positive<T: Scalar>(argument: &'static str, value: &T) -> Result<(), SolveError> {
-    require(value.is_finite() && *value > T::zero(), argument, value, POSITIVE)
+    require(value.is_finite() && *value > T::zero(), argument, value, POSITIVE)?;
+    finite_number(argument, value)
 }
 
 pub(super) fn finite_number<T: Scalar>(argument: &'static str, value: &T) -> Result<(), SolveError> {
-    require(value.is_finite(), argument, value, FINITE)
+    require(value.is_finite(), argument, value, FINITE)?;
+    require(value.has_exact_value(), argument, value, COMPLETE)
 }
 
 pub(super) fn system<T: Scalar>(system: &SpringMass<T>) -> Result<(), SolveError> {

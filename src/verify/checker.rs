@@ -141,10 +141,11 @@ impl NumberDomain for Rationals {
     }
 }
 
-impl<T> NumberDomain for Balls<T>
-where
-    T: Scalar + Real + Exponential + ToExact + std::fmt::Display + Sync,
-{
+/// Floats in whose balls claims are checked.
+pub(super) trait CheckedFloat: Scalar + Real + Exponential + ToExact + Send + Sync + 'static {}
+impl<T: Scalar + Real + Exponential + ToExact + Send + Sync + 'static> CheckedFloat for T {}
+
+impl<T: CheckedFloat> NumberDomain for Balls<T> {
     type Number = T;
     const EXPONENTIALS: bool = true;
     fn value(&self, x: &Exact) -> Ball<T> {

@@ -272,7 +272,12 @@ impl<T: Real> One for Ball<T> {
 }
 impl<T: Real> Field for Ball<T> {
     fn int(n: i32) -> Self {
-        Ball::point(T::int(n))
+        let x = T::int(n);
+        // Up to 2ᵖ every integer is a number of p bits.
+        if (x.abs() * x.unit_roundoff()).partial_cmp(&T::one()).is_some_and(Ordering::is_le) {
+            return Ball::point(x);
+        }
+        Ball::int(n / 256) * Ball::int(256) + Ball::int(n % 256)
     }
     fn is_invertible(&self) -> bool {
         self.value.abs() > self.radius

@@ -24,7 +24,8 @@
 //! rust-lang/rust#44491.)
 //!
 //! # Your own number system
-//! A number system is a newtype with its operators on references by [`operators!`](crate::operators), `Zero`,
+//! A float with `Float` of num-traits needs only [`Native`](crate::number::Native). Any other number system is
+//! a newtype with its operators on references by [`operators!`](crate::operators), `Zero`,
 //! `One` and one line of `Field`; every formula then runs on it. This example is the integers modulo 7, in
 //! which 1/3 = 5:
 //!
@@ -100,8 +101,9 @@ pub trait Field:
         + Add<Self, Output = Self> + Sub<Self, Output = Self>
         + Mul<Self, Output = Self> + Div<Self, Output = Self>>
 {
-    /// Returns a small integer exactly, at least for |n| ≤ 2²⁴, which f32 can represent. A format with fewer
-    /// digits needs exact constants like those of [`Mpfr`](crate::number::Mpfr).
+    /// Returns a small integer exactly, at least for |n| ≤ 2⁸, which bf16 can represent, and otherwise the
+    /// nearest number. A format with fewer digits needs exact constants like those of
+    /// [`Mpfr`](crate::number::Mpfr).
     fn int(n: i32) -> Self;
 
     /// Returns `true` if `self` is invertible. This differs from `!is_zero()`: neither the dual number 0 +
@@ -149,7 +151,7 @@ pub trait Exponential: Field {
 /// Numbers with an order.
 pub trait OrderedField: PositivePart + PartialOrd {}
 
-/// Floating-point numbers: f32, f64 and [`Mpfr`](super::Mpfr). Every operation rounds to nearest.
+/// Floating-point numbers: f32, f64, [`Native`](super::Native) floats and [`Mpfr`](super::Mpfr). Every operation rounds to nearest.
 ///
 /// [`Ball`](super::Ball)s of another type are correct if an operation differs from the exact result by at most
 /// [`half_ulp`](Real::half_ulp) of the rounded one, a product or quotient by half of
@@ -263,8 +265,8 @@ macro_rules! operators {
 
 /// Implements ⟨x⟩, min and |x| for numbers with an order.
 macro_rules! ordered {
-    ($($type:ty),*) => {$(
-        impl PositivePart for $type {
+    ($([$($generics:tt)*] $type:ty),*) => {$(
+        impl<$($generics)*> PositivePart for $type {
             #[inline]
             fn positive_part(&self) -> Self {
                 if *self > <$type>::zero() { self.clone() } else { <$type>::zero() }
@@ -278,10 +280,9 @@ macro_rules! ordered {
                 if *self < <$type>::zero() { -self } else { self.clone() }
             }
         }
-        impl OrderedField for $type {}
+        impl<$($generics)*> OrderedField for $type {}
     )*};
 }
-#[cfg(feature = "mpfr")]
 pub(crate) use ordered;
 
 macro_rules! machine_float {
@@ -329,5 +330,5 @@ machine_float!(f32, f64);
 #[allow(clippy::clone_on_copy)]
 mod machine {
     use super::{OrderedField, PositivePart, Zero};
-    ordered!(f32, f64);
+    ordered!([] f32, [] f64);
 }

@@ -3,6 +3,7 @@
 //! | number | meaning | purpose |
 //! |---|---|---|
 //! | `f32`, `f64` | machine floats | computation |
+//! | [`Native<T>`] | any other float of num-traits, such as `half::f16` | computation |
 #![cfg_attr(
     feature = "mpfr",
     doc = "| [`Mpfr`] | a float of 2 to 1 000 000 bits, chosen at run time | high precision |"
@@ -22,6 +23,7 @@ mod dual;
 pub mod field;
 #[cfg(feature = "mpfr")]
 mod gmp;
+mod native;
 mod program;
 pub mod tree;
 
@@ -30,6 +32,7 @@ pub use dual::Dual;
 pub use field::{Exponential, Field, Logarithm, OrderedField, PositivePart, Real};
 #[cfg(feature = "mpfr")]
 pub use gmp::*;
+pub use native::Native;
 pub use program::{Program, SpecializedProgram};
 pub use tree::{Tree, symbols};
 

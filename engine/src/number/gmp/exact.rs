@@ -1,13 +1,13 @@
 //! Exact rational numbers.
 
 use super::text::{fixed, to_whole};
-use super::{Mpfr, NumberSystem, RangeError};
+use super::{FloatFormat, Mpfr, NumberSystem, RangeError};
 use crate::number::field::ordered;
 use crate::number::tree::Op;
 use crate::number::{Ball, Field, OrderedField, PositivePart, Real};
 use num_traits::{One, Zero};
 use rug::float::Round;
-use rug::ops::{AssignRound, NegAssign};
+use rug::ops::NegAssign;
 use rug::{Assign, Float, Rational};
 use std::cmp::Ordering;
 use std::fmt;
@@ -96,7 +96,7 @@ impl Field for Exact {
         true
     }
 }
-ordered!(Exact);
+ordered!([] Exact);
 
 impl Exact {
     /// Rounds to `bits` bits, ties to even. Returns `None` if `bits` is 0.
@@ -181,7 +181,7 @@ macro_rules! from_floats {
 }
 from_floats!(f32, f64);
 
-/// A float that has no exact value because it is not finite.
+/// A number without an exact value, since it is not finite or of a type that does not return it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum NonFiniteError {
     /// ∞
@@ -193,11 +193,14 @@ pub enum NonFiniteError {
     /// NaN
     #[error("NaN has no exact value; a finite number has")]
     NotANumber,
+    /// A finite number of a type that returns only a part of it, such as its leading digits.
+    #[error("integer_decode of this type does not return the whole number")]
+    Incomplete,
 }
 
 impl NonFiniteError {
     /// Returns the error for a float that is not finite.
-    fn of(x: f64) -> Self {
+    pub(super) fn of(x: f64) -> Self {
         if x.is_nan() {
             NonFiniteError::NotANumber
         } else if x.is_sign_positive() {
@@ -208,13 +211,14 @@ impl NonFiniteError {
     }
 }
 
-/// Numbers that convert to rationals exactly, and from rationals with one rounding: machine floats, [`Mpfr`]
-/// and [`Exact`] itself.
+/// Numbers that convert to rationals exactly, and from rationals with one rounding: machine floats,
+/// [`Native`](crate::number::Native) ones, [`Mpfr`] and [`Exact`] itself.
 pub trait ToExact: Sized {
     /// Returns the exact value.
     ///
     /// # Errors
-    /// Returns an error if the number is infinite or NaN.
+    /// Returns an error if the number is infinite or NaN, or if a type of [`Native`](crate::number::Native) does
+    /// not return its value.
     fn to_exact(&self) -> Result<Exact, NonFiniteError>;
 
     /// Returns the number system of this number. Constants of [`Mpfr`] are exact.
@@ -235,28 +239,22 @@ pub trait ToExact: Sized {
         self.round_from_exact_with_ordering(x).map(|(nearest, _)| nearest)
     }
 }
-impl ToExact for f32 {
-    fn to_exact(&self) -> Result<Exact, NonFiniteError> {
-        Rational::from_f32(*self).map(Exact).ok_or_else(|| NonFiniteError::of(f64::from(*self)))
-    }
-    fn number_system(&self) -> NumberSystem {
-        NumberSystem::F32
-    }
-    fn round_from_exact_with_ordering(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
-        to_ieee(&x.0, 24, "f32").map(|(x, ordering)| (x.to_f32(), ordering))
-    }
+macro_rules! machine {
+    ($($float:ident $format:ident $from:ident $to:ident;)*) => {$(
+        impl ToExact for $float {
+            fn to_exact(&self) -> Result<Exact, NonFiniteError> {
+                Rational::$from(*self).map(Exact).ok_or_else(|| NonFiniteError::of(f64::from(*self)))
+            }
+            fn number_system(&self) -> NumberSystem {
+                NumberSystem::$format
+            }
+            fn round_from_exact_with_ordering(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
+                FloatFormat::$format.round(&x.0).map(|(x, ordering)| (x.$to(), ordering))
+            }
+        }
+    )*};
 }
-impl ToExact for f64 {
-    fn to_exact(&self) -> Result<Exact, NonFiniteError> {
-        Rational::from_f64(*self).map(Exact).ok_or_else(|| NonFiniteError::of(*self))
-    }
-    fn number_system(&self) -> NumberSystem {
-        NumberSystem::F64
-    }
-    fn round_from_exact_with_ordering(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
-        to_ieee(&x.0, 53, "f64").map(|(x, ordering)| (x.to_f64(), ordering))
-    }
-}
+machine! { f32 F32 from_f32 to_f32; f64 F64 from_f64 to_f64; }
 /// A constant represents every rational exactly.
 impl ToExact for Mpfr {
     fn to_exact(&self) -> Result<Exact, NonFiniteError> {
@@ -337,24 +335,6 @@ impl Exact {
     }
 }
 
-/// Rounds a finite number to one that a machine float of this precision can represent.
-fn to_ieee<V>(number: V, precision: u32, scalar: &'static str) -> Result<(Float, Ordering), RangeError>
-where
-    Float: AssignRound<V, Round = Round, Ordering = Ordering>,
-{
-    let (mut x, ordering) = Float::with_val_round(precision, number, Round::Nearest);
-    let zero = x.is_zero();
-    let ordering = x.subnormalize_ieee_round(ordering, Round::Nearest);
-    let largest = if precision == 53 { f64::MAX } else { f64::from(f32::MAX) };
-    if *x.as_abs() > largest {
-        Err(RangeError::Overflow { scalar })
-    } else if x.is_zero() && !zero {
-        Err(RangeError::Underflow { scalar })
-    } else {
-        Ok((x, ordering))
-    }
-}
-
 impl Mpfr {
     /// Rounds once to the nearest f64, ties to even, also if the result is subnormal. Infinities and NaN are
     /// preserved.
@@ -376,7 +356,7 @@ impl Mpfr {
             None => Exact(self.to_rational().unwrap_or_default()).to_f64(),
             Some(x) if !x.is_finite() => Ok(x.to_f64()),
             // Not through a rational, which can exceed the memory.
-            Some(x) => to_ieee(x, 53, "f64").map(|(x, _)| x.to_f64()),
+            Some(x) => FloatFormat::F64.round(x).map(|(x, _)| x.to_f64()),
         }
     }
 }

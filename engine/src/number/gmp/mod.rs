@@ -3,6 +3,7 @@
 mod exact;
 mod functions;
 mod mpfr;
+mod native;
 mod parse;
 mod system;
 mod text;
@@ -10,5 +11,5 @@ mod text;
 pub use exact::{Exact, NonFiniteError, ToExact};
 pub use mpfr::{Mpfr, PRECISIONS};
 pub use parse::{MAX_EXPONENT, ParseError, RangeError};
-pub use system::{NumberSystem, UnknownNumberSystem};
+pub use system::{FloatFormat, NumberSystem, UnknownNumberSystem};
 pub use text::ExactText;

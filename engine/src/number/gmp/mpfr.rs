@@ -242,7 +242,7 @@ impl Field for Mpfr {
         true
     }
 }
-ordered!(Mpfr);
+ordered!([] Mpfr);
 
 /// Panics, because a function of a constant is irrational and has no precision to round to.
 fn no_precision(function: &str) -> ! {

@@ -1,0 +1,116 @@
+//! Exact values and correctly rounded functions of floats of num-traits.
+
+use super::{Exact, ExactText, FloatFormat, NonFiniteError, NumberSystem, RangeError, ToExact};
+use crate::number::{Exponential, Logarithm, Native, Real};
+use num_traits::{Float, Zero};
+use rug::float::Round;
+use rug::integer::Order;
+use rug::{Integer, Rational};
+use std::cmp::Ordering;
+use std::fmt::Debug;
+
+impl<T: Float + Debug> Native<T> {
+    fn format() -> FloatFormat {
+        let exponent = |power: T| {
+            let (mantissa, exponent, _) = power.integer_decode();
+            i32::from(exponent) + mantissa.checked_ilog2().map_or(0, u32::cast_signed)
+        };
+        let name = std::any::type_name::<T>();
+        FloatFormat {
+            name: name.rsplit_once("::").filter(|_| !name.contains('<')).map_or(name, |(_, last)| last),
+            bits: (1 - exponent(T::epsilon())).max(1).unsigned_abs(),
+            exponents: [T::min_positive_value(), T::max_value()].map(exponent),
+        }
+    }
+
+    /// Returns n 2ᵉ for n ≥ 0, exactly if it is a number of this type.
+    fn scaled(n: Integer, e: i32) -> Self {
+        let zeros = n.find_one(0).unwrap_or(0);
+        let digits = Integer::from(&n >> zeros).to_digits::<u8>(Order::Msf);
+        let byte = |digit: u8| T::from(digit).unwrap_or_else(T::nan);
+        let (two, radix) = (byte(2), byte(16) * byte(16));
+        let mut x = digits.into_iter().fold(T::zero(), |x, digit| x * radix + byte(digit));
+        let e = e + zeros.cast_signed();
+        for _ in 0..e.abs() / 8 {
+            x = if e < 0 { x / radix } else { x * radix };
+        }
+        for _ in 0..e.abs() % 8 {
+            x = if e < 0 { x / two } else { x * two };
+        }
+        Native(x)
+    }
+
+    /// Returns a number that this format represents.
+    fn from_float(x: &rug::Float) -> Self {
+        let (n, e) = x.to_integer_exp().expect("a finite number");
+        let size = Self::scaled(n.abs(), e);
+        if x.is_sign_negative() { -size } else { size }
+    }
+
+    /// Returns f(x), rounded once. The type itself returns what is not finite.
+    fn correctly_rounded(self, f: fn(&mut rug::Float, Round) -> Ordering, own: fn(T) -> T) -> Self {
+        let format = Self::format();
+        let Ok(x) = self.to_exact() else { return Native(own(self.0)) };
+        let mut y = rug::Float::with_val(format.bits, x.as_rational());
+        let ordering = f(&mut y, Round::Nearest);
+        if !y.is_finite() {
+            return Native(own(self.0));
+        }
+        match format.fit(y, ordering) {
+            Ok((y, _)) => Self::from_float(&y),
+            Err(RangeError::Overflow { .. }) => Self::infinity(),
+            Err(RangeError::Underflow { .. }) => Self::zero(),
+        }
+    }
+}
+
+impl<T: Float + Debug> ToExact for Native<T> {
+    fn to_exact(&self) -> Result<Exact, NonFiniteError> {
+        if !self.0.is_finite() {
+            let sign = if self.0 > T::zero() { 1.0 } else { -1.0 };
+            return Err(NonFiniteError::of(if self.0.is_nan() { f64::NAN } else { f64::INFINITY * sign }));
+        }
+        let (mantissa, exponent, sign) = self.0.integer_decode();
+        let (n, e) = (Integer::from(mantissa), i32::from(exponent));
+        // A second decoding alone would lose the same part again.
+        if Self::scaled(n.clone(), e) != Native(self.0.abs()) {
+            return Err(NonFiniteError::Incomplete);
+        }
+        Ok(Exact((Rational::from(n) << e) * i32::from(sign)))
+    }
+    fn number_system(&self) -> NumberSystem {
+        NumberSystem::Float(Self::format())
+    }
+    fn round_from_exact_with_ordering(&self, x: &Exact) -> Result<(Self, Ordering), RangeError> {
+        let (nearest, ordering) = Self::format().round(&x.0)?;
+        Ok((Self::from_float(&nearest), ordering))
+    }
+}
+
+impl<T: Float + Debug> ExactText for Native<T> {
+    fn text(&self) -> String {
+        let Ok(x) = self.to_exact() else { return format!("{:?}", self.0) };
+        // As many digits as distinguish any two numbers; the shorter decimal is then written without a power of ten.
+        let most = 2 + Self::format().bits as usize / 3;
+        let shorter = (1..most).map(|digits| x.decimal(digits, Round::Nearest).parse::<Exact>());
+        let found = shorter.flatten().find(|decimal| self.round_from_exact(decimal).as_ref() == Ok(self));
+        found.unwrap_or(x).decimal(most, Round::Nearest)
+    }
+    fn neighbours(&self) -> [Self; 2] {
+        [self.next_down(), self.next_up()]
+    }
+}
+
+impl<T: Float + Debug> Exponential for Native<T> {
+    fn exp(&self) -> Self {
+        self.correctly_rounded(rug::Float::exp_round, T::exp)
+    }
+}
+impl<T: Float + Debug> Logarithm for Native<T> {
+    fn ln(&self) -> Self {
+        self.correctly_rounded(rug::Float::ln_round, T::ln)
+    }
+    fn ln_1p(&self) -> Self {
+        self.correctly_rounded(rug::Float::ln_1p_round, T::ln_1p)
+    }
+}
