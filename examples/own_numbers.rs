@@ -1,16 +1,19 @@
-//! A user-defined number system for `solve`: fixed-point decimals, nanometres and nanonewtons.
+//! Own numbers for `solve`. A float with `Float` of num-traits takes one line, `system.map(|&x| Native(x))`: here f16.
+//! Anything else is a number system of its own: here fixed-point decimals, nanometres and nanonewtons.
 //!
-//! Numbers are read and rounded in decimals, so that 0.05 is 0.05. Prints
+//! Its numbers are read and rounded in decimals, so that 0.05 is 0.05. Prints
 //!
 //! ```text
+//! u = 0.0498 m in f16, where 1.05 − 1 is 51/1024
 //! u = 0.050000000 m, N = 4.810000000 N, for certain 4.810000000 to 4.810000000; direct
 //! u = 0.094953271 m, N = 0.314672900 N, for certain 0.314672897 to 0.314672898; direct
 //! u = 0.050000006 m, N = 4.809999400 N, for certain 4.810000000 to 4.810000000; converged
 //! ```
 
+use half::f16;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::num_traits::{One, Zero};
-use spring_mass_contact::number::{Exact, Field, OrderedField, PositivePart};
+use spring_mass_contact::number::{Exact, ExactText, Field, Native, OrderedField, PositivePart, ToExact};
 use spring_mass_contact::operators;
 use spring_mass_contact::rug::Rational;
 use spring_mass_contact::solver::laws::{self, LawViolation};
@@ -122,6 +125,11 @@ impl Scalar for Nano {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
+    let rounded = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 }.map(|&x| f16::from_f64(x));
+    let in_half = rounded.map(|&x| Native(x));
+    let u = solve(&in_half, &Method::Lagrange)?.deflection;
+    println!("u = {} m in f16, where 1.05 − 1 is {}", u.text(), u.to_exact()?);
+
     laws_hold()?;
     let system = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse()?;
     solve_in_decimals(&system.map(|x| Nano::rounded(x.clone(), Rational::round)))?;

@@ -187,7 +187,7 @@ fn an_error_is_a_line() {
         ),
         (
             "\"scalar\": 64".into(),
-            "invalid value '64' for 'scalar': must be f32, f64, mpfr:BITS with 2 to 1000000 bits, or exact".into(),
+            "invalid value '64' for 'scalar': must be f16, bf16, f32, f64, mpfr:BITS with 2 to 1000000 bits, or exact".into(),
         ),
         ("\"bilateral\": 1".into(), "invalid value '1' for 'bilateral': must be true or false".into()),
         (

@@ -115,6 +115,18 @@ fn a_claim_can_fail_in_one_number_system_alone() {
     }
 }
 
+/// Claims whose numbers are out of range, or whose precision is too low, are undecided.
+#[cfg(feature = "half")]
+#[test]
+fn no_claim_fails_in_a_float_of_16_bits() {
+    let checkers = [NumberSystem::F16, NumberSystem::BF16].map(|scalar| (scalar, checks(scalar)));
+    let report = run(&checkers, Vec::new(), &options(60), &|_, _| ());
+    let failed = report.rows.iter().filter(|row| row.status == Status::Failed);
+    assert_eq!(failed.collect::<Vec<_>>(), Vec::<&ClaimResult>::new());
+    let VerificationSummary { claims, held, .. } = report.summary();
+    assert!(2 * held > claims, "{held} of {claims} held");
+}
+
 /// u/3 · 3 − u, whose sign balls cannot decide.
 #[test]
 fn a_claim_that_no_case_decides_is_undecided() {

@@ -10,36 +10,71 @@
 //! the exact solution is tiny relative to an interval of f32s, so rationals are needed only if a bound lies
 //! within the ball.
 
+use half::f16;
 use rayon::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
-use spring_mass_contact::number::{Ball, Exact, Field, ToExact};
+use spring_mass_contact::number::{Ball, Exact, Field, Native, Real, ToExact};
 use spring_mass_contact::operators;
-use spring_mass_contact::solver::{Interval, Method, Outcome, Solution, SolveError, State, solve};
+use spring_mass_contact::solver::{Interval, Method, Outcome, Scalar, Solution, SolveError, State, solve};
 use std::cmp::Ordering;
+use std::marker::PhantomData;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Default system of the command.
-const SYSTEM: SpringMass<f32> = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
-const PENALTY: f32 = 1000.0;
-const TOLERANCE: f32 = 1e-6;
+/// A format narrower than f64, with the default system of the command.
+trait Narrow: Scalar + Real + ToExact + Copy + Send + Sync {
+    /// Above the floor of the augmentation.
+    const TOLERANCE: f64;
+    fn from_pattern(bits: u32) -> Self;
+    fn nearest(x: f64) -> Self;
+    fn wide(self) -> f64;
+}
+impl Narrow for f32 {
+    const TOLERANCE: f64 = 1e-6;
+    fn from_pattern(bits: u32) -> Self {
+        f32::from_bits(bits)
+    }
+    fn nearest(x: f64) -> Self {
+        x as f32
+    }
+    fn wide(self) -> f64 {
+        self.into()
+    }
+}
+impl Narrow for Native<f16> {
+    const TOLERANCE: f64 = 1.0 / 32.0;
+    fn from_pattern(bits: u32) -> Self {
+        Native(f16::from_bits(bits as u16))
+    }
+    fn nearest(x: f64) -> Self {
+        Native(f16::from_f64(x))
+    }
+    fn wide(self) -> f64 {
+        self.0.into()
+    }
+}
+
+const SYSTEM: SpringMass<f64> = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+const PENALTY: f64 = 1000.0;
 /// About the number that the default takes; more would cost time without testing bounds.
 const MAX_AUGMENTATIONS: u64 = 8;
 
 /// A parameter: its name in errors, whether it must be positive, and its setter.
-struct Parameter {
+struct Parameter<T> {
     name: &'static str,
     positive: bool,
-    set: fn(&mut SpringMass<f32>, &mut f32, f32),
+    set: fn(&mut SpringMass<T>, &mut T, T),
 }
 
-const PARAMETERS: [Parameter; 6] = [
-    Parameter { name: "stiffness", positive: true, set: |system, _, x| system.c = x },
-    Parameter { name: "mass", positive: true, set: |system, _, x| system.m = x },
-    Parameter { name: "gravity", positive: false, set: |system, _, x| system.g = x },
-    Parameter { name: "free length", positive: false, set: |system, _, x| system.l = x },
-    Parameter { name: "height", positive: false, set: |system, _, x| system.h = x },
-    Parameter { name: "penalty", positive: true, set: |_, eps, x| *eps = x },
-];
+fn parameters<T>() -> [Parameter<T>; 6] {
+    [
+        Parameter { name: "stiffness", positive: true, set: |system, _, x| system.c = x },
+        Parameter { name: "mass", positive: true, set: |system, _, x| system.m = x },
+        Parameter { name: "gravity", positive: false, set: |system, _, x| system.g = x },
+        Parameter { name: "free length", positive: false, set: |system, _, x| system.l = x },
+        Parameter { name: "height", positive: false, set: |system, _, x| system.h = x },
+        Parameter { name: "penalty", positive: true, set: |_, eps, x| *eps = x },
+    ]
+}
 
 /// Returns the exact deflection, penetration and contact force.
 fn answer<T: Field>(system: &SpringMass<T>, eps: Option<&T>, state: Ordering) -> [T; 3] {
@@ -59,21 +94,21 @@ fn answer<T: Field>(system: &SpringMass<T>, eps: Option<&T>, state: Ordering) ->
 }
 
 /// A case, in balls of f64, and in rationals if these do not decide.
-struct Oracle<'a> {
-    system: &'a SpringMass<f32>,
+struct Oracle<'a, T> {
+    system: &'a SpringMass<T>,
     /// Penalty of the penalty method; the limit of the augmentation is the solution by Lagrange multiplier.
-    eps: Option<f32>,
+    eps: Option<T>,
     state: Ordering,
     balls: [Ball<f64>; 3],
 }
 
-fn exact(x: f32) -> Exact {
+fn exact<T: ToExact>(x: T) -> Exact {
     x.to_exact().expect("finite")
 }
 
-impl<'a> Oracle<'a> {
-    fn new(system: &'a SpringMass<f32>, eps: Option<f32>) -> Self {
-        let ball = |x: f32| Ball::point(f64::from(x));
+impl<'a, T: Narrow> Oracle<'a, T> {
+    fn new(system: &'a SpringMass<T>, eps: Option<T>) -> Self {
+        let ball = |x: T| Ball::point(x.wide());
         let balls = system.map(|x| ball(*x));
         let sign = system::reaction(&balls).sign();
         let state = sign.unwrap_or_else(|| system::reaction(&system.map(|x| exact(*x))).cmp(&Exact::from(0)));
@@ -97,32 +132,32 @@ impl<'a> Oracle<'a> {
         exactly(&answer[part])
     }
 
-    fn within(&self, part: usize, Interval { lower, upper }: &Interval<f32>) -> bool {
-        let certain = |least, most| f64::from(*lower) <= least && most <= f64::from(*upper);
-        lower.is_finite()
-            && upper.is_finite()
+    fn within(&self, part: usize, Interval { lower, upper }: &Interval<T>) -> bool {
+        let certain = |least, most| lower.wide() <= least && most <= upper.wide();
+        Real::is_finite(lower)
+            && Real::is_finite(upper)
             && self.lies(part, certain, |x| exact(*lower) <= *x && *x <= exact(*upper))
     }
 
     /// Returns the error in a solution, if any.
-    fn wrong(&self, solution: &Solution<f32>) -> Option<&'static str> {
+    fn wrong(&self, solution: &Solution<T>) -> Option<&'static str> {
         let Solution { deflection, penetration, contact_force, bounds, .. } = solution;
         let state = match solution.state {
             State::Contact => Ordering::Greater,
             State::Grazing => Ordering::Equal,
             State::Separated => Ordering::Less,
         };
-        let (u, tolerance) = (*deflection, TOLERANCE);
+        let (u, tolerance) = (*deflection, T::nearest(T::TOLERANCE));
         let near = |least: f64, most: f64| {
-            let (u, tolerance) = (f64::from(u), f64::from(tolerance));
+            let (u, tolerance) = (u.wide(), tolerance.wide());
             // Each difference is off by less than the distance to the next number.
-            (most - u).next_up() < tolerance && (u - least).next_up() < tolerance
+            f64::next_up(most - u) < tolerance && f64::next_up(u - least) < tolerance
         };
         let nearby = |x: &Exact| {
             let error = x - exact(u);
             error < exact(tolerance) && -error < exact(tolerance)
         };
-        if ![deflection, penetration, contact_force].iter().all(|x| x.is_finite()) {
+        if ![deflection, penetration, contact_force].iter().all(|x| Real::is_finite(*x)) {
             Some("a result is not finite")
         } else if state != self.state {
             Some("the state is wrong")
@@ -140,19 +175,19 @@ impl<'a> Oracle<'a> {
     }
 }
 
-/// A number, and whether f32 can represent all intermediate results with a margin.
+/// A number, and whether T can represent all intermediate results with a margin.
 #[derive(Clone, Debug, PartialEq)]
-struct Roomy(f64, bool);
+struct Roomy<T>(f64, bool, PhantomData<T>);
 
-fn roomy(value: f64, operands: [&Roomy; 2]) -> Roomy {
-    // Between the smallest f32 and a quarter of the largest, so that four values, or one and its error, can
+fn roomy<T: Narrow>(value: f64, operands: [&Roomy<T>; 2]) -> Roomy<T> {
+    // Between the smallest T and a quarter of the largest, so that four values, or one and its error, can
     // be added.
-    let fits =
-        value == 0.0 || (f64::from(f32::from_bits(1))..=f64::from(f32::MAX) / 4.0).contains(&value.abs());
-    Roomy(value, fits && operands.iter().all(|operand| operand.1))
+    let range = T::min_subnormal().wide()..=T::infinity().next_down().wide() / 4.0;
+    let fits = value == 0.0 || range.contains(&value.abs());
+    Roomy(value, fits && operands.iter().all(|operand| operand.1), PhantomData)
 }
 
-operators! { [] Roomy;
+operators! { [T: Narrow] Roomy<T>;
     Add add |a, b| roomy(a.0 + b.0, [a, b]);
     Sub sub |a, b| roomy(a.0 - b.0, [a, b]);
     Mul mul |a, b| roomy(a.0 * b.0, [a, b]);
@@ -160,30 +195,30 @@ operators! { [] Roomy;
     - |a| roomy(-a.0, [a, a])
 }
 
-impl num_traits::Zero for Roomy {
+impl<T: Narrow> num_traits::Zero for Roomy<T> {
     fn zero() -> Self {
-        Roomy(0.0, true)
+        Roomy(0.0, true, PhantomData)
     }
     fn is_zero(&self) -> bool {
         self.0 == 0.0
     }
 }
 
-impl num_traits::One for Roomy {
+impl<T: Narrow> num_traits::One for Roomy<T> {
     fn one() -> Self {
-        Roomy(1.0, true)
+        Roomy(1.0, true, PhantomData)
     }
 }
 
-impl Field for Roomy {
+impl<T: Narrow> Field for Roomy<T> {
     fn int(n: i32) -> Self {
-        Roomy(f64::from(n), true)
+        Roomy(f64::from(n), true, PhantomData)
     }
 }
 
-/// Returns `true` if f32 can represent all results; then no overflow may be reported.
-fn has_room(system: &SpringMass<f32>, eps: f32) -> bool {
-    let number = |x: f32| roomy(f64::from(x), [&Roomy(0.0, true); 2]);
+/// Returns `true` if T can represent all results; then no overflow may be reported.
+fn has_room<T: Narrow>(system: &SpringMass<T>, eps: T) -> bool {
+    let number = |x: T| roomy::<T>(x.wide(), [&Roomy(0.0, true, PhantomData); 2]);
     let (system, eps) = (system.map(|x| number(*x)), number(eps));
     let [free, held, penalised] = [
         answer(&system, None, Ordering::Less),
@@ -195,15 +230,15 @@ fn has_room(system: &SpringMass<f32>, eps: f32) -> bool {
 }
 
 /// Returns the error in a solve, if any.
-fn check(parameter: &Parameter, x: f32, method: &Method<f32>) -> Option<String> {
-    let (mut system, mut eps) = (SYSTEM, PENALTY);
+fn check<T: Narrow>(parameter: &Parameter<T>, x: T, method: &Method<T>) -> Option<String> {
+    let (mut system, mut eps) = (SYSTEM.map(|x| T::nearest(*x)), T::nearest(PENALTY));
     (parameter.set)(&mut system, &mut eps, x);
     let mut method = *method;
     match &mut method {
         Method::Lagrange => {}
         Method::Penalty { penalty } | Method::Augmented { penalty, .. } => *penalty = eps,
     }
-    let valid = x.is_finite() && (x > 0.0 || !parameter.positive);
+    let valid = Real::is_finite(&x) && (x > T::zero() || !parameter.positive);
     match solve(&system, &method) {
         Err(SolveError::Invalid { argument, .. }) => {
             (valid || argument != parameter.name).then(|| format!("{argument} is refused"))
@@ -218,16 +253,16 @@ fn check(parameter: &Parameter, x: f32, method: &Method<f32>) -> Option<String> 
 }
 
 /// Returns the error with one bit pattern as a parameter, for each method that has it, if any.
-fn check_pattern(parameter: &Parameter, bits: u32) -> Option<String> {
-    let x = f32::from_bits(bits);
+fn check_pattern<T: Narrow>(parameter: &Parameter<T>, bits: u32) -> Option<String> {
+    let x = T::from_pattern(bits);
     let methods = [
         Method::Lagrange,
-        Method::Penalty { penalty: PENALTY },
+        Method::Penalty { penalty: T::nearest(PENALTY) },
         Method::Augmented {
-            penalty: PENALTY,
-            tolerance: TOLERANCE,
+            penalty: T::nearest(PENALTY),
+            tolerance: T::nearest(T::TOLERANCE),
             max_augmentations: MAX_AUGMENTATIONS,
-            start: 0.0,
+            start: T::zero(),
         },
     ];
     let methods = &methods[usize::from(parameter.name == "penalty")..];
@@ -242,9 +277,18 @@ fn check_pattern(parameter: &Parameter, bits: u32) -> Option<String> {
 #[test]
 fn every_f32_has_no_violations() {
     let stride = std::env::var("F32_STRIDE").map_or(1_000_003, |text| text.parse().expect("an integer"));
-    for parameter in &PARAMETERS {
+    for parameter in &parameters::<f32>() {
         let multiples = (0..=u32::MAX / stride).into_par_iter();
         let wrong = multiples.find_map_any(|n| check_pattern(parameter, n * stride));
+        assert_eq!(wrong, None, "{}", parameter.name);
+    }
+}
+
+/// By every method with every parameter.
+#[test]
+fn every_f16_has_no_violations() {
+    for parameter in &parameters::<Native<f16>>() {
+        let wrong = (0..=u32::from(u16::MAX)).into_par_iter().find_map_any(|n| check_pattern(parameter, n));
         assert_eq!(wrong, None, "{}", parameter.name);
     }
 }
@@ -252,11 +296,11 @@ fn every_f32_has_no_violations() {
 /// Cases that balls do not decide: grazing, R = 1·10 − 4 (3.5 − 1) = 0, and a bound equal to the solution.
 #[test]
 fn rationals_decide_where_balls_are_inconclusive() {
-    let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.5 };
+    let system = SpringMass { c: 4.0_f32, m: 1.0, g: 10.0, l: 1.0, h: 3.5 };
     let oracle = Oracle::new(&system, None);
     assert_eq!(oracle.state, Ordering::Equal);
     assert!(oracle.within(0, &Interval { lower: 2.5, upper: 2.5 }));
-    assert!(!oracle.within(0, &Interval { lower: 2.5_f32.next_up(), upper: 3.0 }));
-    assert!(!oracle.within(0, &Interval { lower: 2.0, upper: 2.5_f32.next_down() }));
+    assert!(!oracle.within(0, &Interval { lower: f32::next_up(2.5), upper: 3.0 }));
+    assert!(!oracle.within(0, &Interval { lower: 2.0, upper: f32::next_down(2.5) }));
     assert!(!oracle.within(0, &Interval { lower: f32::NEG_INFINITY, upper: 3.0 }));
 }

@@ -1,8 +1,9 @@
 //! The laws of scalars: all number systems satisfy them, and each violated law is named.
 
 use crate::strategies::*;
+use half::{bf16, f16};
 use num_traits::One;
-use spring_mass_contact::number::{Ball, Field};
+use spring_mass_contact::number::{Ball, Field, Native};
 use spring_mass_contact::operators;
 use spring_mass_contact::solver::laws::{self, LawViolation, ScalarLaw};
 use std::cmp::Ordering;
@@ -14,7 +15,8 @@ fn samples<T: Float>(like: &T, least: i32, largest: i32) -> Vec<T> {
     let [one, third, tenth] = [int(1), q("1/3"), q("1/10")].map(round);
     let ends = [power(least), -power(least), power(largest), -power(largest)];
     let near = [one.clone().next_up(), -one.clone().next_down(), third.clone().next_up()];
-    let middle = [power(0) - &one, one, third.clone(), -third, tenth.clone(), tenth * power(20), power(-40)];
+    let (large, small) = (power(20.min(largest)), power((-40).max(least)));
+    let middle = [power(0) - &one, one, third.clone(), -third, tenth.clone(), tenth * large, small];
     ends.into_iter().chain(near).chain(middle).collect()
 }
 
@@ -26,6 +28,10 @@ fn our_scalars_keep_the_laws() {
     for (least, largest) in [(-1074, 1023), (-500, 500)] {
         laws::check_scalar_laws(&samples(&1f64, least, largest), exact).unwrap();
     }
+    laws::check_scalar_laws(&samples(&Native(f16::ONE), -24, 15), exact).unwrap();
+    laws::check_scalar_laws(&samples(&Native(f16::ONE), -14, 7), exact).unwrap();
+    laws::check_scalar_laws(&samples(&Native(bf16::ONE), -133, 127), exact).unwrap();
+    laws::check_scalar_laws(&samples(&Native(bf16::ONE), -60, 60), exact).unwrap();
     for bits in [2, 24, 53, 200] {
         laws::check_scalar_laws(&samples(&float(bits), -9999, 9999), exact).unwrap();
     }

@@ -273,11 +273,11 @@ impl<T: Real> One for Ball<T> {
 impl<T: Real> Field for Ball<T> {
     fn int(n: i32) -> Self {
         let x = T::int(n);
-        // Up to 2ᵖ every integer is a number of p bits.
-        if (x.abs() * x.unit_roundoff()).partial_cmp(&T::one()).is_some_and(Ordering::is_le) {
+        // Below 2ᵖ every integer is a number of p bits.
+        if (x.abs() * x.unit_roundoff()).partial_cmp(&T::one()).is_some_and(Ordering::is_lt) {
             return Ball::point(x);
         }
-        Ball::int(n / 256) * Ball::int(256) + Ball::int(n % 256)
+        Ball::int(n / 16) * Ball::int(16) + Ball::int(n % 16)
     }
     fn is_invertible(&self) -> bool {
         self.value.abs() > self.radius

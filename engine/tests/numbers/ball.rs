@@ -1,7 +1,7 @@
 //! Tests of balls.
 
 use super::draw::{Tally, floats, for_all, pairs, rationals};
-use super::floats::{Binary32, Binary64};
+use super::floats::{Binary16, Binary32, Binary64, Brain16};
 use super::format::bracket;
 use super::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200, all_of_three_bits};
 use super::system::{Floats, Planted, System, operations};
@@ -15,6 +15,8 @@ use std::marker::PhantomData;
 
 /// Balls over floats with the exact number anywhere inside: at a bound, at the centre, or between.
 pub struct Balls<S>(PhantomData<S>);
+pub type BallF16 = Balls<Binary16>;
+pub type BallBf16 = Balls<Brain16>;
 pub type BallF32 = Balls<Binary32>;
 pub type BallF64 = Balls<Binary64>;
 pub type BallMpfr2 = Balls<Mpfr2>;
@@ -86,11 +88,11 @@ impl<S: Floats<Number = N>, N: Real + ToExact + 'static> System for Balls<S> {
     }
 }
 
-law! { the_radius_is_zero_only_for_exact_centres: Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 }
+law! { the_radius_is_zero_only_for_exact_centres: Binary16 Brain16 Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 }
 
 // Laws of the balls over these floats.
 macro_rules! laws_of_balls {
-    ($($law:ident)+) => {$(law! { $law: Binary32 Binary64 Mpfr2 Mpfr53 })+};
+    ($($law:ident)+) => {$(law! { $law: Binary16 Brain16 Binary32 Binary64 Mpfr2 Mpfr53 })+};
 }
 laws_of_balls! {
     signs_and_bounds_of_balls_are_correct

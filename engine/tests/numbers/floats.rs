@@ -1,16 +1,17 @@
 //! Tests of machine floats, shared with floats of any precision.
 
 use super::draw::{Tally, floats, for_all, pairs, rationals};
-use super::format::{DOUBLE, Format, SINGLE, magnitude, rounds_as};
+use super::format::{BRAIN, DOUBLE, Format, HALF, SINGLE, magnitude, rounds_as};
 use super::mpfr::{Mpfr2, Mpfr3, Mpfr24, Mpfr53, Mpfr200};
 use super::system::{Floats, Planted, System, planted};
+use half::{bf16, f16};
 use num_traits::{One, Zero};
 use proptest::prelude::*;
-use provable::number::{Exact, Exponential, Field, Logarithm, Mpfr, PositivePart, Real, ToExact};
-use rug::Float;
+use provable::number::{Exact, Exponential, Field, Logarithm, Mpfr, Native, PositivePart, Real, ToExact};
+use rug::{Float, Rational};
 
 macro_rules! machine_floats {
-    ($($Name:ident $float:ident $format:ident $convert:ident;)*) => {$(
+    ($($Name:ident $float:ty, $format:ident, $convert:expr;)*) => {$(
         pub struct $Name;
 
         impl System for $Name {
@@ -23,7 +24,7 @@ macro_rules! machine_floats {
             fn stands_for(result: &$float, exact: &Exact) -> bool {
                 let nearest = $format.round(exact);
                 if nearest.abs() > $format.largest() {
-                    *result == $float::INFINITY.copysign(if nearest > Exact::zero() { 1.0 } else { -1.0 })
+                    *result == if nearest > Exact::zero() { Real::infinity() } else { -<$float>::infinity() }
                 } else {
                     result.to_exact() == Ok(nearest)
                 }
@@ -33,18 +34,22 @@ macro_rules! machine_floats {
             const FORMAT: Format = $format;
 
             fn float(x: &Exact) -> $float {
-                x.as_rational().$convert()
+                $convert(x.as_rational())
             }
         }
     )*};
 }
 machine_floats! {
-    Binary32 f32 SINGLE to_f32;
-    Binary64 f64 DOUBLE to_f64;
+    Binary16 Native<f16>, HALF, |x: &Rational| Native(f16::from_f64(x.to_f64()));
+    Brain16 Native<bf16>, BRAIN, |x: &Rational| Native(bf16::from_f64(x.to_f64()));
+    Binary32 f32, SINGLE, Rational::to_f32;
+    Binary64 f64, DOUBLE, Rational::to_f64;
+    Native64 Native<f64>, DOUBLE, |x: &Rational| Native(x.to_f64());
 }
 
 macro_rules! laws_of_floats {
-    ($($law:ident)+) => {$(law! { $law: Binary32 Binary64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 })+};
+    ($($law:ident)+) => {$(law! { $law:
+        Binary16 Brain16 Binary32 Binary64 Native64 Mpfr2 Mpfr3 Mpfr24 Mpfr53 Mpfr200 })+};
 }
 laws_of_floats! {
     no_float_lies_between_neighbours
@@ -173,6 +178,8 @@ fn subnormal_exponentials_are_rounded_once() {
         }
         subnormal.assert_one_in(2, "subnormal numbers");
     }
+    law::<Binary16, _>();
+    law::<Brain16, _>();
     law::<Binary32, _>();
     law::<Binary64, _>();
 }

@@ -17,6 +17,8 @@ pub struct Format {
     pub bounded: bool,
 }
 
+pub const HALF: Format = Format { bits: 11, least: -24, greatest: 5, bounded: true };
+pub const BRAIN: Format = Format { bits: 8, least: -133, greatest: 120, bounded: true };
 pub const SINGLE: Format = Format { bits: 24, least: -149, greatest: 104, bounded: true };
 pub const DOUBLE: Format = Format { bits: 53, least: -1074, greatest: 971, bounded: true };
 

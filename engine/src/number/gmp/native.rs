@@ -9,12 +9,24 @@ use rug::{Integer, Rational};
 use std::cmp::Ordering;
 use std::fmt::Debug;
 
+/// Largest absolute value of an exponent, beyond which no format has one: an infinity of a wrong one ends there.
+const MAX_EXPONENT: i32 = 1 << 15;
+
+/// Returns e for 2ᵉ ≤ x < 2ᵉ⁺¹, without `integer_decode`, which can panic for more than 64 bits.
+fn exponent<T: Float>(mut x: T) -> i32 {
+    let (one, two) = (T::one(), T::one() + T::one());
+    let mut e = 0;
+    while x < one && e > -MAX_EXPONENT {
+        (x, e) = (x * two, e - 1);
+    }
+    while x >= two && e < MAX_EXPONENT {
+        (x, e) = (x / two, e + 1);
+    }
+    e
+}
+
 impl<T: Float + Debug> Native<T> {
     fn format() -> FloatFormat {
-        let exponent = |power: T| {
-            let (mantissa, exponent, _) = power.integer_decode();
-            i32::from(exponent) + mantissa.checked_ilog2().map_or(0, u32::cast_signed)
-        };
         let name = std::any::type_name::<T>();
         FloatFormat {
             name: name.rsplit_once("::").filter(|_| !name.contains('<')).map_or(name, |(_, last)| last),
@@ -70,6 +82,9 @@ impl<T: Float + Debug> ToExact for Native<T> {
             let sign = if self.0 > T::zero() { 1.0 } else { -1.0 };
             return Err(NonFiniteError::of(if self.0.is_nan() { f64::NAN } else { f64::INFINITY * sign }));
         }
+        if Self::format().bits > u64::BITS {
+            return Err(NonFiniteError::Incomplete);
+        }
         let (mantissa, exponent, sign) = self.0.integer_decode();
         let (n, e) = (Integer::from(mantissa), i32::from(exponent));
         // A second decoding alone would lose the same part again.
@@ -92,7 +107,9 @@ impl<T: Float + Debug> ExactText for Native<T> {
         let Ok(x) = self.to_exact() else { return format!("{:?}", self.0) };
         // As many digits as distinguish any two numbers; the shorter decimal is then written without a power of ten.
         let most = 2 + Self::format().bits as usize / 3;
-        let shorter = (1..most).map(|digits| x.decimal(digits, Round::Nearest).parse::<Exact>());
+        // Below a power of two numbers are closer, so one side of a tie can be the same float, the other not.
+        let sides = [Round::Nearest, Round::Down, Round::Up];
+        let shorter = (1..most).flat_map(|digits| sides.map(|side| x.decimal(digits, side).parse::<Exact>()));
         let found = shorter.flatten().find(|decimal| self.round_from_exact(decimal).as_ref() == Ok(self));
         found.unwrap_or(x).decimal(most, Round::Nearest)
     }
