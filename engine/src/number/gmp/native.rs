@@ -37,7 +37,8 @@ impl<T: Float + Debug> Native<T> {
 
     /// Returns n 2ᵉ for n ≥ 0, exactly if it is a number of this type.
     fn scaled(n: Integer, e: i32) -> Self {
-        let zeros = n.find_one(0).unwrap_or(0);
+        // The exponent of zero is arbitrary.
+        let Some(zeros) = n.find_one(0) else { return Self::zero() };
         let digits = Integer::from(&n >> zeros).to_digits::<u8>(Order::Msf);
         let byte = |digit: u8| T::from(digit).unwrap_or_else(T::nan);
         let (two, radix) = (byte(2), byte(16) * byte(16));
