@@ -119,8 +119,8 @@ fn a_claim_can_fail_in_one_number_system_alone() {
 #[cfg(feature = "half")]
 #[test]
 fn no_claim_fails_in_a_float_of_16_bits() {
-    let checkers = [NumberSystem::F16, NumberSystem::BF16].map(|scalar| (scalar, checks(scalar)));
-    let report = run(&checkers, Vec::new(), &options(60), &|_, _| ());
+    let asked = Options { scalars: vec![NumberSystem::F16, NumberSystem::BF16], ..options(60) };
+    let report = run(&groups(&asked), Vec::new(), &asked, &|_, _| ());
     let failed = report.rows.iter().filter(|row| row.status == Status::Failed);
     assert_eq!(failed.collect::<Vec<_>>(), Vec::<&ClaimResult>::new());
     let VerificationSummary { claims, held, .. } = report.summary();
