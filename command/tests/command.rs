@@ -291,7 +291,7 @@ fn a_seed_of_64_bits_determines_the_cases() {
 /// In any notation and order, twice or once, and a name and its number as two words.
 #[test]
 fn equations_are_selected_in_the_order_of_the_chapter() {
-    for command in ["equations", "prove", "verify --cases 5"] {
+    for command in ["equations", "verify --cases 5"] {
         let numbers = ["note", "4", "theorem 1.3.3", "Eq. (1.13)", "1.13"];
         let (rows, code) = json(&[&words(command)[..], &numbers].concat());
         let rows = rows.get("equations").unwrap_or(&rows);

@@ -10,6 +10,7 @@
 //! the exact solution is tiny relative to an interval of f32s, so rationals are needed only if a bound lies
 //! within the ball.
 
+use crate::strategies::is_deep;
 use half::f16;
 use rayon::prelude::*;
 use spring_mass_contact::chapter::{SpringMass, augmented, contact, lagrange, penalty, structure, system};
@@ -288,7 +289,10 @@ fn every_f32_has_no_violations() {
 #[test]
 fn every_f16_has_no_violations() {
     for parameter in &parameters::<Native<f16>>() {
-        let wrong = (0..=u32::from(u16::MAX)).into_par_iter().find_map_any(|n| check_pattern(parameter, n));
+        // All values of one parameter, and of the others a sample.
+        let stride = if is_deep() || parameter.name == "height" { 1 } else { 31 };
+        let multiples = (0..=u32::from(u16::MAX) / stride).into_par_iter();
+        let wrong = multiples.find_map_any(|n| check_pattern(parameter, n * stride));
         assert_eq!(wrong, None, "{}", parameter.name);
     }
 }
