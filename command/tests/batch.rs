@@ -294,7 +294,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1))]
 
         #[test]
-    fn any_lines_have_an_answer_each(lines in prop::collection::vec(any_line(), 400)) {
+    fn any_lines_have_an_answer_each(lines in prop::collection::vec(any_line(), 200)) {
         let put: Vec<_> = lines.iter().filter(|line| !line.trim_ascii().is_empty()).collect();
         let output = raw("", lines.join(&b'\n'));
         // An id comes back whatever number it is, so not every answer is a `Value`.
@@ -310,7 +310,7 @@ proptest! {
         }
         // Otherwise one of the two would hardly have been tried.
         let refused = answers.iter().filter(|answer| answer.contains_key("error")).count();
-        prop_assert!((80..320).contains(&refused), "{} of {}", refused, answers.len());
+        prop_assert!((40..160).contains(&refused), "{} of {}", refused, answers.len());
     }
 }
 

@@ -29,9 +29,7 @@ fn our_scalars_keep_the_laws() {
         laws::check_scalar_laws(&samples(&1f64, least, largest), exact).unwrap();
     }
     laws::check_scalar_laws(&samples(&Native(f16::ONE), -24, 15), exact).unwrap();
-    laws::check_scalar_laws(&samples(&Native(f16::ONE), -14, 7), exact).unwrap();
     laws::check_scalar_laws(&samples(&Native(bf16::ONE), -133, 127), exact).unwrap();
-    laws::check_scalar_laws(&samples(&Native(bf16::ONE), -60, 60), exact).unwrap();
     for bits in [2, 24, 53, 200] {
         laws::check_scalar_laws(&samples(&float(bits), -9999, 9999), exact).unwrap();
     }
