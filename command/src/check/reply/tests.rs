@@ -1,6 +1,7 @@
 //! Output lines of programs.
 
 use super::*;
+use proptest::prelude::*;
 use spring_mass_contact::number::Exact;
 
 fn exact(text: &str) -> ReportedNumber {
@@ -238,4 +239,54 @@ fn nothing_that_is_read_takes_long() {
     );
     // A second or so.
     assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+}
+
+/// A line of the keys of an answer with values, of which some are not JSON; one byte may be any other.
+fn any_line() -> impl Strategy<Value = Vec<u8>> {
+    const KEYS: [&str; 9] =
+        ["id", "deflection", "contact_force", "penetration", "status", "error", "steps", "used", "mass"];
+    const VALUES: [&str; 16] = [
+        "\"a\"",
+        "1",
+        "-1E+3",
+        "1e5000",
+        "\"1/3\"",
+        "\"1/0\"",
+        "nan(0x1)",
+        "-inf",
+        "null",
+        "true",
+        "[]",
+        "{}",
+        "[{\"deflection\": 1, \"contact_force\": 2}]",
+        "{\"mass\": 0}",
+        "\"\\ud800\"",
+        "01",
+    ];
+    let pair = (prop::sample::select(&KEYS[..]), prop::sample::select(&VALUES[..]));
+    let byte = prop::option::weighted(0.2, any::<(prop::sample::Index, u8)>());
+    (prop::collection::vec(pair, 0..5), byte).prop_map(|(pairs, byte)| {
+        let pairs: Vec<_> = pairs.iter().map(|(key, value)| format!("\"{key}\": {value}")).collect();
+        let rest = if pairs.is_empty() { "" } else { ", " };
+        let mut line = format!("{{\"id\": \"a\", {U}, {N}{rest}{}}}", pairs.join(", ")).into_bytes();
+        if let Some((at, byte)) = byte {
+            let at = at.index(line.len());
+            line[at] = byte;
+        }
+        line
+    })
+}
+
+proptest! {
+    /// Every line is a reply, an error of one line, or no object.
+    #[test]
+    fn any_line_is_a_reply_or_an_error(line in any_line()) {
+        let reply = read(&line, "a");
+        prop_assert_eq!(reply.is_none(), early(&line, "a").is_none());
+        let text = match reply {
+            Some(Err(text) | Ok(Reply::Refused(text) | Reply::InvalidResponse(text))) => text,
+            _ => String::new(),
+        };
+        prop_assert!(text.len() < 2000 && !text.contains(['\n', '\r', '\u{1b}']), "{}", text);
+    }
 }
