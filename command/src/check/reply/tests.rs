@@ -259,7 +259,7 @@ fn any_line() -> impl Strategy<Value = Vec<u8>> {
         "[]",
         "{}",
         "[{\"deflection\": 1, \"contact_force\": 2}]",
-        "{\"mass\": 0}",
+        "\"b\\nc\\u001b\"",
         "\"\\ud800\"",
         "01",
     ];
@@ -278,6 +278,8 @@ fn any_line() -> impl Strategy<Value = Vec<u8>> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
     /// Every line is a reply, an error of one line, or no object.
     #[test]
     fn any_line_is_a_reply_or_an_error(line in any_line()) {
