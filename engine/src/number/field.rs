@@ -151,7 +151,8 @@ pub trait Exponential: Field {
 /// Numbers with an order.
 pub trait OrderedField: PositivePart + PartialOrd {}
 
-/// Floating-point numbers: f32, f64, [`Native`](super::Native) floats and [`Mpfr`](super::Mpfr). Every operation rounds to nearest.
+/// Floating-point numbers: f32, f64, [`Native`](super::Native) floats and [`Mpfr`](super::Mpfr). Every operation rounds
+/// to nearest.
 ///
 /// [`Ball`](super::Ball)s of another type are correct if an operation differs from the exact result by at most
 /// [`half_ulp`](Real::half_ulp) of the rounded one, a product or quotient by half of

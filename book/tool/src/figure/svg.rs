@@ -12,7 +12,7 @@ pub struct Svg {
     /// Height in pixels.
     pub height: f64,
     pub body: String,
-    /// What the elements show, such as `p = 0, N = 2`.
+    /// Descriptions of the elements, such as `p = 0, N = 2`.
     pub labels: Vec<String>,
 }
 

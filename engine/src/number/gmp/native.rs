@@ -10,16 +10,16 @@ use std::cmp::Ordering;
 use std::fmt::Debug;
 
 /// Largest absolute value of an exponent, beyond which no format has one: an infinity of a wrong one ends there.
-const MAX_EXPONENT: i32 = 1 << 15;
+const MAX_FORMAT_EXPONENT: i32 = 1 << 15;
 
 /// Returns e for 2ᵉ ≤ x < 2ᵉ⁺¹, without `integer_decode`, which can panic for more than 64 bits.
 fn exponent<T: Float>(mut x: T) -> i32 {
     let (one, two) = (T::one(), T::one() + T::one());
     let mut e = 0;
-    while x < one && e > -MAX_EXPONENT {
+    while x < one && e > -MAX_FORMAT_EXPONENT {
         (x, e) = (x * two, e - 1);
     }
-    while x >= two && e < MAX_EXPONENT {
+    while x >= two && e < MAX_FORMAT_EXPONENT {
         (x, e) = (x / two, e + 1);
     }
     e
@@ -44,11 +44,10 @@ impl<T: Float + Debug> Native<T> {
         let (two, radix) = (byte(2), byte(16) * byte(16));
         let mut x = digits.into_iter().fold(T::zero(), |x, digit| x * radix + byte(digit));
         let e = e + zeros.cast_signed();
-        for _ in 0..e.abs() / 8 {
-            x = if e < 0 { x / radix } else { x * radix };
-        }
-        for _ in 0..e.abs() % 8 {
-            x = if e < 0 { x / two } else { x * two };
+        for (factor, steps) in [(radix, e.abs() / 8), (two, e.abs() % 8)] {
+            for _ in 0..steps {
+                x = if e < 0 { x / factor } else { x * factor };
+            }
         }
         Native(x)
     }
