@@ -7,7 +7,6 @@ use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::{Config, TestRunner};
 use std::cell::Cell;
-use std::fs;
 use std::os::unix::ffi::OsStringExt;
 use std::process::Output;
 
@@ -160,15 +159,4 @@ fn an_argument_that_is_not_unicode_is_refused() {
     let bytes = std::ffi::OsString::from_vec(b"\xff\xfe".to_vec());
     let output = captured(command().args(["solve", "--mass"]).arg(bytes));
     assert_eq!((wrong(&output), output.status.code()), (None, Some(2)));
-}
-
-/// A path is a directory that can be written to, or refused.
-#[test]
-fn a_directory_for_coq_has_to_be_writable() {
-    let folder = Scratch::new("no_directory");
-    fs::write(folder.join("file"), "").expect("a file");
-    for path in ["file", "file/below"] {
-        let output = captured(command().args(["prove", "--coq", path]).current_dir(&*folder));
-        assert_eq!((wrong(&output), output.status.code()), (None, Some(2)), "{path}");
-    }
 }
