@@ -105,6 +105,7 @@ impl Tally {
         seen
     }
 
+    /// Asserts a share so much lower than the expected one that it is missed by chance less than once in 10⁵ runs.
     pub fn assert_one_in(&self, n: u32, what: &str) {
         let (seen, of) = (self.seen.get(), self.of.get());
         assert!(of > 0 && seen * n >= of, "{what}: {seen} of {of}");
