@@ -107,7 +107,7 @@ fn floats() {
     };
     let chain = "its formulas, each waiting for the one before";
     let systems: Vec<_> = (0..CHAIN).map(|i| SpringMass { h: 1.05 + i as f64 * 1e-5, ..SYSTEM }).collect();
-    let balls: Vec<_> = systems.iter().map(|s| s.map(|x| Ball::point(*x))).collect();
+    let balls: Vec<_> = systems.iter().map(|s| s.map(Ball::point)).collect();
     let study: Vec<_> = (0..STUDY).map(|i| SpringMass { h: 1.05 + i as f64 * 1e-9, ..SYSTEM }).collect();
     compare(
         "solve in f64, Lagrange, with state and bounds",
@@ -174,7 +174,7 @@ struct Raw {
 impl Raw {
     fn new(system: &SpringMass<Mpfr>, eps: &Mpfr) -> Self {
         let float = |x: &Mpfr| x.as_float().expect("a rounded number").clone();
-        let (system, eps) = (system.map(float), float(eps));
+        let (system, eps) = (system.as_ref().map(float), float(eps));
         let SpringMass { c, m, g, l, h } = &system;
         let bits = eps.prec();
         let weight = Float::with_val(bits, m * g);

@@ -1,4 +1,4 @@
-//! Own numbers for `solve`. A float with `Float` of num-traits takes one line, `system.map(|&x| Native(x))`: here f16.
+//! Own numbers for `solve`. A float with `Float` of num-traits takes one line, `system.map(Native)`: here f16.
 //! Anything else is a number system of its own: here fixed-point decimals, nanometres and nanonewtons.
 //!
 //! Its numbers are read and rounded in decimals, so that 0.05 is 0.05. Prints
@@ -125,8 +125,8 @@ impl Scalar for Nano {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let rounded = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 }.map(|&x| f16::from_f64(x));
-    let in_half = rounded.map(|&x| Native(x));
+    let rounded = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 }.map(f16::from_f64);
+    let in_half = rounded.map(Native);
     let u = solve(&in_half, &Method::Lagrange)?.deflection;
     println!("u = {} m in f16, where 1.05 − 1 is {}", u.text(), u.to_exact()?);
 

@@ -144,7 +144,7 @@ pub fn solve_observed<T: Scalar>(
     validate::system(system)?;
     validate::method(method)?;
     validate::products(system)?;
-    let enclosed = system.map(T::enclose);
+    let enclosed = system.as_ref().map(T::enclose);
     let reaction = system::reaction(&enclosed);
     let state = State::from_reaction(&reaction, system);
     let target = ExactSolution::of(&enclosed, reaction, method, state, plane);

@@ -56,7 +56,7 @@ fn solving_in_machine_floats_does_not_allocate() {
 #[test]
 fn solving_in_f32_and_state_do_not_allocate() {
     for system in &SYSTEMS {
-        let narrow = system.map(|x| *x as f32);
+        let narrow = system.map(|x| x as f32);
         let method = Method::Augmented { penalty: 50.0, tolerance: 1e-3, max_augmentations: 99, start: 0.0 };
         assert_eq!(counted(|| solve(&narrow, &method).is_ok()), (0, true));
         let (count, state) = counted(|| State::of(system));

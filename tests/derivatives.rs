@@ -13,7 +13,7 @@ fn systems() -> impl Strategy<Value = (SpringMass<Exact>, Exact)> {
 }
 
 fn constants<T: Field>(system: &SpringMass<T>) -> SpringMass<Dual<T>> {
-    system.map(|x| Dual::constant(x.clone()))
+    system.as_ref().map(|x| Dual::constant(x.clone()))
 }
 
 #[test]

@@ -64,7 +64,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 
 /// Returns a system with its exact solution.
 fn case(problem: Problem) -> impl Serialize {
-    let SpringMass { c, m, g, l, h } = problem.system.map(format_exact);
+    let SpringMass { c, m, g, l, h } = problem.system.as_ref().map(format_exact);
     let exact = problem.solution();
     record! {
         id: problem.id,

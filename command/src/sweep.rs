@@ -223,7 +223,7 @@ impl Sweeping<'_> {
             };
             return vec![reason.to_string()];
         };
-        let reaction = system::reaction(&system.map(exact));
+        let reaction = system::reaction(&system.as_ref().map(exact));
         let stiffness = format!(
             "R = {} N for the rounded parameters, of which the spring carries c/(c + ε): from \
              ε = c = {} N/m on this error decreases like 1/ε, with the slope −1.",
@@ -286,7 +286,7 @@ fn best_penalty_note<T: Scalar + ExactText>(system: &SpringMass<T>, eta: &Exact)
 /// Describes the floors with the smallest and the largest penalty for which there is something to augment:
 /// the penetration by penalty is greater than the floor.
 fn augmentation_note<T: ExactText>(system: &SpringMass<T>, penalties: &[T], eta: &Exact) -> Option<String> {
-    let (s, n) = (system.map(exact), Exact::one() / eta);
+    let (s, n) = (system.as_ref().map(exact), Exact::one() / eta);
     let floors = penalties.iter().map(exact).map(|eps| (rounding::floor_scale(&s, &eps, &n), eps));
     let floors: Vec<_> = floors.filter(|(floor, eps)| *floor < penalty::penetration(&s, eps)).collect();
     let (first, last) = (floors.first()?, floors.last()?);

@@ -81,7 +81,7 @@ fn output_is_reproducible() {
 fn enclosed<T: ToExact>(system: &SpringMass<Exact>, like: &T, bounds: &Value) {
     let rounded =
         |x: &Exact| -> Result<Exact, RangeError> { Ok(like.round_from_exact(x)?.to_exact().unwrap()) };
-    let system = system.try_map(rounded).unwrap();
+    let system = system.as_ref().try_map(rounded).unwrap();
     let u = contact::deflection(&system);
     let answers = [
         ("penetration", contact::penetration(&system, &u)),

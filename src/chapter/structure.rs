@@ -90,7 +90,7 @@ pub fn virtual_work<T: Field>(system: &SpringMass<T>, u: &T, du: &T) -> T {
 /// [In the book](../../../../book/structure.html#eq-1-3)
 pub fn first_variation<T: Field>(system: &SpringMass<T>, u: &T, du: &T) -> T {
     let path = Dual { value: u.clone(), derivative: du.clone() };
-    potential_energy(&system.map(|x| Dual::constant(x.clone())), &path).derivative
+    potential_energy(&system.as_ref().map(|x| Dual::constant(x.clone())), &path).derivative
 }
 
 /// Eq. (1.4): the potential energy, in J, at the deflection `u` in m.

@@ -12,6 +12,7 @@ use std::fmt;
 /// use spring_mass_contact::chapter::SpringMass;
 /// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
 /// assert_eq!(system.map(|x| 2.0 * x).c, 200.0);
+/// assert_eq!(system.map(|x| x as f32).h, 1.05);
 /// ```
 ///
 /// With the feature `serde` it is serialised under the keys of `contact solve --batch`, `stiffness`, `mass`,
@@ -92,7 +93,7 @@ impl<T> SpringMass<T> {
     }
 
     /// Returns the system with each parameter mapped.
-    pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> SpringMass<U> {
+    pub fn map<U>(self, mut f: impl FnMut(T) -> U) -> SpringMass<U> {
         let SpringMass { c, m, g, l, h } = self;
         SpringMass { c: f(c), m: f(m), g: f(g), l: f(l), h: f(h) }
     }
@@ -101,7 +102,7 @@ impl<T> SpringMass<T> {
     ///
     /// # Errors
     /// The first error that `f` returns.
-    pub fn try_map<U, E>(&self, mut f: impl FnMut(&T) -> Result<U, E>) -> Result<SpringMass<U>, E> {
+    pub fn try_map<U, E>(self, mut f: impl FnMut(T) -> Result<U, E>) -> Result<SpringMass<U>, E> {
         let SpringMass { c, m, g, l, h } = self;
         Ok(SpringMass { c: f(c)?, m: f(m)?, g: f(g)?, l: f(l)?, h: f(h)? })
     }

@@ -62,8 +62,8 @@ impl Rounding {
         [Rounding::of, Rounding::of_float].into_iter().any(|round| {
             answers.iter().all(|answer| {
                 let system = SpringMass::SYMBOLS.zip(answer.problem.system.as_ref()).map(|(symbol, x)| {
-                    let rounded = if symbols.contains(symbol) { round(self, x) } else { None };
-                    rounded.unwrap_or_else(|| (*x).clone())
+                    let rounded = if symbols.contains(&symbol) { round(self, x) } else { None };
+                    rounded.unwrap_or_else(|| x.clone())
                 });
                 answer.is_explained_by_parameters(&system, tolerance)
             })

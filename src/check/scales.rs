@@ -43,7 +43,7 @@ pub(super) fn ball(x: &Exact) -> Option<Ball<f64>> {
 
 /// Returns a system in balls around floats, if it is in range.
 pub(super) fn balls(system: &SpringMass<Exact>) -> Option<SpringMass<Ball<f64>>> {
-    system.try_map(|x| ball(x).ok_or(())).ok()
+    system.as_ref().try_map(|x| ball(x).ok_or(())).ok()
 }
 
 /// Returns `true` if the radius of a ball is at most a size.

@@ -86,7 +86,7 @@ pub fn advise<T: Scalar + ExactText>(system: &SpringMass<T>, tolerance: &T) -> R
     validate::positive("tolerance", tolerance)?;
     let by_multiplier = solve(system, &Method::Lagrange)?;
     let state = by_multiplier.state;
-    let (exact_system, exact_tolerance) = (system.map(exact), exact(tolerance));
+    let (exact_system, exact_tolerance) = (system.as_ref().map(exact), exact(tolerance));
     // The coarsest parameter determines the precision, also that of a recommended penalty.
     let SpringMass { c, m, g, l, h } = system;
     let coarsest = [c, m, g, l, h].into_iter().max_by_key(|x| x.number_system().unit_roundoff());
@@ -338,7 +338,7 @@ mod tests {
     /// p = R/(c + ε) = 1/4 for ε = 4, and the tolerance has to exceed it.
     #[test]
     fn an_error_equal_to_the_tolerance_does_not_meet_it() {
-        let system = SpringMass { c: 4, m: 1, g: 10, l: 1, h: 3 }.map(|x| Exact::from(*x));
+        let system = SpringMass { c: 4, m: 1, g: 10, l: 1, h: 3 }.map(Exact::from);
         let tolerance = Exact::power_of_two(-2);
         let advisor = Advisor {
             system: &system,

@@ -43,7 +43,7 @@ pub fn kth_iterate<T: Scalar>(
     validate::system(system)?;
     validate::positive("penalty", eps)?;
     validate::finite_number("initial multiplier", start)?;
-    let (system, eps, lambda) = (system.map(T::enclose), eps.enclose(), start.enclose());
+    let (system, eps, lambda) = (system.as_ref().map(T::enclose), eps.enclose(), start.enclose());
     let rho = augmented::contraction(&system, &eps);
     // For λ ≥ 0 the closed forms with brackets suffice (see `closed`). A negative λ₀ needs one separate step.
     let (start, steps) = if plane == Plane::Unilateral && k > 0 && *start < T::zero() {

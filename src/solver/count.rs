@@ -43,7 +43,7 @@ pub fn exact_augmentation_count<T: Scalar + ToExact>(
     validate::positive("penalty", eps)?;
     validate::positive("tolerance", tolerance)?;
     validate::finite_number("initial multiplier", start)?;
-    count(&system.map(exact), &exact(eps), &exact(tolerance), &exact(start), plane)
+    count(&system.as_ref().map(exact), &exact(eps), &exact(tolerance), &exact(start), plane)
 }
 
 /// Returns the count for arguments that have been checked.

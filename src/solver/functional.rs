@@ -136,7 +136,7 @@ fn solve_in_contact<T: Scalar>(
     tolerance: &T,
     functional: &dyn Fn(&DualEnclosure<T>) -> DualEnclosure<T>,
 ) -> Result<Solution<T>, FunctionalError> {
-    let enclosed = system.map(T::enclose);
+    let enclosed = system.as_ref().map(T::enclose);
     let reaction = system::reaction(&enclosed);
     let equation = PenaltyEquation::new(enclosed.c.clone(), reaction, functional);
     let max = equation.max_penetration()?;
@@ -218,7 +218,7 @@ pub fn penalty_for_functional<T: Scalar, const N: usize>(
     validate::positive("tolerance", tolerance)?;
     enclose_parameters(parameters)?;
     let mut parameters = parameters.clone();
-    let enclosed = system.map(T::enclose);
+    let enclosed = system.as_ref().map(T::enclose);
     let spring = reduced_system(enclosed.c.clone(), system::reaction(&enclosed));
     // −R²/(2c), the least energy of a mass of weight R.
     let least = structure::least_energy(&spring);

@@ -51,7 +51,7 @@ pub fn is_convergence_guaranteed<T: Scalar + ToExact>(
     unit_roundoff: &Exact,
 ) -> Result<bool, SolveError> {
     validate_arguments(system, eps, tolerance, unit_roundoff)?;
-    let laws = RoundingLaws::new(&system.map(exact), unit_roundoff, &min_normal(&system.c));
+    let laws = RoundingLaws::new(&system.as_ref().map(exact), unit_roundoff, &min_normal(&system.c));
     Ok(laws.is_none_or(|laws| laws.is_convergence_guaranteed(&exact(eps), &exact(tolerance))))
 }
 
@@ -85,7 +85,7 @@ pub fn guaranteed_max_augmentations<T: Scalar + ToExact>(
     unit_roundoff: &Exact,
 ) -> Result<Option<Integer>, SolveError> {
     validate_arguments(system, eps, tolerance, unit_roundoff)?;
-    let (exact_system, eps, tolerance) = (system.map(exact), exact(eps), exact(tolerance));
+    let (exact_system, eps, tolerance) = (system.as_ref().map(exact), exact(eps), exact(tolerance));
     match RoundingLaws::new(&exact_system, unit_roundoff, &min_normal(&system.c)) {
         Some(laws) => laws.max_augmentations(&eps, &tolerance),
         None => count(&exact_system, &eps, &tolerance, &Exact::zero(), Plane::Bilateral).map(Some),
@@ -108,7 +108,7 @@ pub fn guaranteed_max_augmentations<T: Scalar + ToExact>(
 /// ```
 /// # use spring_mass_contact::{chapter::SpringMass, number::Exact, solver::{Plane, rounding_floor}};
 /// let system = SpringMass { c: 4, m: 1, g: 10, l: 1, h: 3 };
-/// let system = system.map(|x| Exact::from(*x));
+/// let system = system.map(Exact::from);
 /// let floor = rounding_floor(&system, Plane::Unilateral, &Exact::power_of_two(-10))?;
 /// assert_eq!(floor, Some("103/1016".parse()?)); // (20 η (3 + 2) + 3 η) / (1 − 8 η)
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -120,7 +120,7 @@ pub fn rounding_floor<T: Scalar + ToExact>(
 ) -> Result<Option<Exact>, SolveError> {
     validate::system(system)?;
     validate_unit_roundoff(unit_roundoff)?;
-    let laws = RoundingLaws::new(&system.map(exact), unit_roundoff, &min_normal(&system.c));
+    let laws = RoundingLaws::new(&system.as_ref().map(exact), unit_roundoff, &min_normal(&system.c));
     Ok(laws.map_or(Some(Exact::zero()), |laws| laws.rounding_floor(plane)))
 }
 
@@ -170,7 +170,7 @@ const MIN_BITS: u32 = 6;
 /// Returns `true` if the tolerance is above the rounding floor, with the tolerance and the parameters rounded
 /// to this precision.
 fn precision_suffices(system: &SpringMass<Exact>, plane: Plane, tolerance: &Exact, bits: u32) -> bool {
-    let floor = mpfr_floor(&system.map(|x| round_to_bits(x, bits)), plane, bits);
+    let floor = mpfr_floor(&system.as_ref().map(|x| round_to_bits(x, bits)), plane, bits);
     floor.is_some_and(|floor| floor < round_to_bits(tolerance, bits))
 }
 

@@ -35,7 +35,7 @@ impl<S: AsRef<str>> SpringMass<S> {
     /// ```
     /// use spring_mass_contact::{chapter::SpringMass, number::Exact};
     /// let system = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.parse()?;
-    /// assert_eq!(system.try_map(Exact::to_f64).unwrap().g, 9.81);
+    /// assert_eq!(system.as_ref().try_map(Exact::to_f64).unwrap().g, 9.81);
     /// let error = SpringMass { c: "-1", m: "1", g: "9.81", l: "1", h: "1.05" }.parse().unwrap_err();
     /// assert_eq!(error.to_string(), "stiffness -1: must be greater than 0 and finite");
     /// # Ok::<(), spring_mass_contact::solver::ReadError>(())

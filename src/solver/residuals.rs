@@ -27,6 +27,6 @@ impl<T: Scalar + ToExact> Solution<T> {
         validate::system(system)?;
         validate::finite_number("deflection", &self.deflection)?;
         validate::finite_number("contact force", &self.contact_force)?;
-        Ok(contact::kkt(&system.map(exact), &exact(&self.deflection), &exact(&self.contact_force)))
+        Ok(contact::kkt(&system.as_ref().map(exact), &exact(&self.deflection), &exact(&self.contact_force)))
     }
 }

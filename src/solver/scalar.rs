@@ -122,7 +122,7 @@ impl<T: Scalar> Interval<T> {
 /// }
 ///
 /// let floats = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
-/// let answer = solve(&floats.map(|&x| Counted(x)), &Method::Penalty { penalty: Counted(100.0) })?;
+/// let answer = solve(&floats.map(Counted), &Method::Penalty { penalty: Counted(100.0) })?;
 /// let known = solve(&floats, &Method::Penalty { penalty: 100.0 })?;
 /// assert_eq!(answer.deflection.0, known.deflection);
 /// assert_eq!(answer.bounds.deflection.lower.0, known.bounds.deflection.lower);

@@ -43,7 +43,7 @@ where
     let like = penalty::penetration(system, eps);
     let is_rounded = !like.unit_roundoff().is_zero(); // constants of MPFR are not
     validate::require(is_rounded, "system", system, "rounded to some precision")?;
-    let SpringMass { c, m, g, l, h } = system.try_map(exact)?;
+    let SpringMass { c, m, g, l, h } = system.as_ref().try_map(exact)?;
     let reaction = system::reaction(&SpringMass { c: c.clone(), m, g, l, h });
     let (eps, higher) = (exact(eps)?, higher.iter().map(exact).collect::<Result<Vec<_>, _>>()?);
     let bits = exact(&like.unit_roundoff())?.as_rational().denom().significant_bits();

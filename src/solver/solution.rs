@@ -52,7 +52,7 @@ impl State {
     /// ```
     pub fn of<T: Scalar>(system: &SpringMass<T>) -> Result<State, SolveError> {
         validate::system(system)?;
-        Ok(State::from_reaction(&system::reaction(&system.map(T::enclose)), system))
+        Ok(State::from_reaction(&system::reaction(&system.as_ref().map(T::enclose)), system))
     }
 
     /// Returns the state of a system from an enclosure of its reaction.
@@ -126,7 +126,7 @@ impl<T: Field> Method<T> {
     /// let answer = solve(&system, &Method::augmented(4.0))?;
     /// // p_k = 2^−(k+2) is below 10⁻⁹ from k = 28 on.
     /// assert_eq!((answer.outcome, answer.augmentations), (Outcome::Converged, Some(28)));
-    /// let narrow = system.map(|x| *x as f32);
+    /// let narrow = system.map(|x| x as f32);
     /// assert_eq!(solve(&narrow, &Method::augmented(4.0))?.outcome, Outcome::Stagnated);
     /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
     /// ```

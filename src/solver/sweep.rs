@@ -64,7 +64,7 @@ fn row<T: Scalar + ToExact>(system: &SpringMass<T>, eps: T) -> Result<SweepRow<T
     let touches = solution.state != State::Separated;
     let force = touches.then(|| penalty::contact_force(system, &eps, &solution.deflection));
     validate::in_range(force.as_ref().is_none_or(T::is_finite), "penalty force")?;
-    let reaction = (solution.state == State::Contact).then(|| system::reaction(&system.map(exact)));
+    let reaction = (solution.state == State::Contact).then(|| system::reaction(&system.as_ref().map(exact)));
     let [force_error, penalty_force_error] = [Some(&solution.contact_force), force.as_ref()]
         .map(|force| reaction.as_ref().zip(force).map(|(r, force)| (exact(force) - r).abs() / r));
     Ok(SweepRow {
@@ -106,7 +106,7 @@ pub fn best_penalty<T: Scalar + ToExact>(
     if State::of(system)? != State::Contact || unit_roundoff.is_zero() {
         return Ok(None);
     }
-    let s = system.map(exact);
+    let s = system.as_ref().map(exact);
     let compliance = rounding::best_compliance_squared(&s, &(Exact::one() / unit_roundoff));
     if compliance.is_zero() {
         return Ok(None);
@@ -147,7 +147,7 @@ pub fn penalty_force_bound<T: Scalar + ToExact>(
     validate::system(system)?;
     validate::positive("penalty", eps)?;
     validate_unit_roundoff(unit_roundoff)?;
-    let (s, eps) = (system.map(exact), exact(eps));
+    let (s, eps) = (system.as_ref().map(exact), exact(eps));
     let (r, short) = (system::reaction(&s), augmented::contraction(&s, &eps));
     if r <= Exact::zero() {
         return Ok(None);

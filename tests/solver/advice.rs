@@ -61,7 +61,7 @@ fn penalties_have_the_precision_of_the_coarsest_parameter() {
 /// The tolerance is rounded as well and must remain above the floor.
 #[test]
 fn bits_are_needed_for_the_tolerance_as_well() {
-    let system = example().map(exact);
+    let system = example().as_ref().map(exact);
     let mut rounded_down = 0;
     for bits in 6..30 {
         let floor = |bits| floor_of(&system, &eta_of(bits)).unwrap();
@@ -84,7 +84,7 @@ fn advised<T: Scalar + ExactText>(system: &SpringMass<T>, tolerance: &T) -> Vec<
 /// 25/101 for ε = 4.08. For p < 1 no penalty is needed, since R/c = 1/2.
 #[test]
 fn the_smallest_penalty_has_two_digits() {
-    let system = example().map(exact);
+    let system = example().as_ref().map(exact);
     for (tolerance, smallest) in [("1/4", "4.1"), ("25/101", "4.1"), ("1", "40")] {
         assert_eq!(advised(&system, &q(tolerance))[0], q(smallest));
     }
@@ -100,7 +100,7 @@ fn the_smallest_penalty_has_two_digits() {
 #[test]
 fn a_tolerance_below_the_rounding_floor_is_rejected() {
     for g in [2, 3] {
-        let system = SpringMass { c: 1, m: 1, g, l: 1, h: 3 }.map(|x| int(*x).to_mpfr(10));
+        let system = SpringMass { c: 1, m: 1, g, l: 1, h: 3 }.map(|x| int(x).to_mpfr(10));
         let eta = eta_of(10);
         let taken = int(10) * &eta * (int(1) + int(2) * &eta);
         let more = &taken * (int(1) + Exact::power_of_two(-40));
@@ -112,7 +112,7 @@ fn a_tolerance_below_the_rounding_floor_is_rejected() {
 /// g/c for ε ≥ c.
 #[test]
 fn a_separated_mass_accepts_any_penalty() {
-    let system = SpringMass { c: 1, m: 1, g: 1, l: 0, h: 3 }.map(|x| int(*x).to_mpfr(10));
+    let system = SpringMass { c: 1, m: 1, g: 1, l: 0, h: 3 }.map(|x| int(x).to_mpfr(10));
     let floor = int(5) * eta_of(10);
     let more = &floor * (int(1) + Exact::power_of_two(-40));
     let [at, above] = [floor, more].map(|x| advise(&system, &x.to_mpfr(99)).unwrap().recommendations);
@@ -133,7 +133,7 @@ fn run_to_tolerance<T: Scalar + ToExact>(
     tolerance: &Exact,
 ) -> Result<Solution<T>, String> {
     let solution = solve(system, method).map_err(|error| error.to_string())?;
-    let error = (exact(&solution.deflection) - resting(&system.map(exact))).abs();
+    let error = (exact(&solution.deflection) - resting(&system.as_ref().map(exact))).abs();
     let is_met = matches!(solution.outcome, Outcome::Direct | Outcome::Converged);
     if is_met && error < *tolerance {
         Ok(solution)
@@ -180,7 +180,7 @@ fn recommendations_hold<T: Float + ExactText>(case: &Case<T>, tolerance: &Exact,
     let rounded = like.round_from_exact(tolerance).ok();
     let Some(tolerance) = rounded.filter(|tolerance| *tolerance > T::zero()) else { return };
     let tol = &exact(&tolerance);
-    let (system, numbers) = (&case.system, case.system.map(exact));
+    let (system, numbers) = (&case.system, case.system.as_ref().map(exact));
     let force = pushing(&numbers);
     let Advice { recommendations: choices, floor, .. } = advise(system, &tolerance).unwrap();
     for choice in &choices {
@@ -220,7 +220,7 @@ fn recommendations_hold<T: Float + ExactText>(case: &Case<T>, tolerance: &Exact,
 /// The largest penalty: it increases the proved rounding bound by c tol, except for rounding it down, and a
 /// run has an error this small.
 fn largest_penalty_preserves_the_force<T: Float + ExactText>(case: &Case<T>) {
-    let (numbers, eta, precision) = (case.system.map(exact), case.eta(), case.precision());
+    let (numbers, eta, precision) = (case.system.as_ref().map(exact), case.eta(), case.precision());
     let SpringMass { c, l, h, .. } = &numbers;
     let r = system::reaction(&numbers);
     let allowed = c * exact(&case.tolerance);
@@ -267,7 +267,7 @@ fn largest_penalty_preserves_the_force<T: Float + ExactText>(case: &Case<T>) {
 /// The smallest penalty is guaranteed, and the next smaller one is not; for the augmentation, one smaller by
 /// a ninth.
 fn smallest_penalty_suffices<T: Float + ExactText>(case: &Case<T>) {
-    let (numbers, tol, eta) = (case.system.map(exact), exact(&case.tolerance), case.eta());
+    let (numbers, tol, eta) = (case.system.as_ref().map(exact), exact(&case.tolerance), case.eta());
     if system::reaction(&numbers) <= int(0) {
         return;
     }
@@ -296,7 +296,7 @@ fn smallest_penalty_suffices<T: Float + ExactText>(case: &Case<T>) {
 
 /// The guaranteed number of augmentations suffices, at the floor and far above it.
 fn guaranteed_augmentations_suffice<T: Float>(case: &Case<T>) {
-    let (eta, numbers) = (case.eta(), case.system.map(exact));
+    let (eta, numbers) = (case.eta(), case.system.as_ref().map(exact));
     // The smallest guaranteed tolerance is affine in the drift (see `is_convergence_guaranteed`).
     let drift = rounding::penetration_drift(&numbers, &exact(&case.eps), &case.precision());
     let begins = (drift + &eta * numbers.h.abs()) / (int(1) - int(8) * &eta);
@@ -394,7 +394,7 @@ fn recommendations_hold_for_small_numbers<T: Float + ExactText>(
 ) {
     let Some(case) = &tiny(case, scales, like) else { return };
     recommendations_hold(case, &exact(&case.tolerance), false);
-    let (numbers, eta) = (case.system.map(exact), case.eta());
+    let (numbers, eta) = (case.system.as_ref().map(exact), case.eta());
     // The law's own floor, which knows no underflow, and what is lost by it.
     let lengths = int(21) * &eta * (numbers.h.abs() + (&numbers.h - &numbers.l).abs());
     let floor = floor_of(&case.system, &eta).filter(|floor| !floor.is_zero());

@@ -71,7 +71,8 @@ fn steps_without_number() {
     let (system, eps, k) = (default_system(), Exact::power_of_two(-50), u64::MAX);
     // ρᵏ = (1 + ε/c)⁻ᵏ is between exp(−k ε/c) and the same with k ε²/(2 c²) less in the exponent, which is nothing.
     let bits = |x: &Exact| x.to_mpfr(300);
-    let p = kth_iterate(&system.map(bits), &bits(&eps), &bits(&int(0)), k, Plane::Unilateral).unwrap();
+    let p =
+        kth_iterate(&system.as_ref().map(bits), &bits(&eps), &bits(&int(0)), k, Plane::Unilateral).unwrap();
     let [lower, upper] = ends(&p.penetration);
     assert!(lower > int(0) && &upper - &lower < Exact::power_of_two(-60) * &lower);
     let exponent = -(&eps / &system.c * Exact::from(Rational::from(k)));
@@ -80,7 +81,7 @@ fn steps_without_number() {
     // k ε²/c² < 2⁶⁴ 2⁻¹⁰⁰ 2⁻¹² = 2⁻⁴⁸.
     assert!((&expected - lower).abs() < Exact::power_of_two(-48) * expected);
     // In f64 ρ is known to too few digits for that, and says so; as a rational it is refused.
-    let floats = system.map(|x| x.to_f64().unwrap());
+    let floats = system.as_ref().map(|x| x.to_f64().unwrap());
     let rough = kth_iterate(&floats, &eps.to_f64().unwrap(), &0.0, k, Plane::Unilateral);
     assert!(rough.is_err() || rough.is_ok_and(|rough| rough.penetration.lower <= 0.0));
     let refused = kth_iterate(&system, &eps, &int(0), k, Plane::Unilateral);

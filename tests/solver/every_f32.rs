@@ -110,9 +110,9 @@ fn exact<T: ToExact>(x: T) -> Exact {
 impl<'a, T: Narrow> Oracle<'a, T> {
     fn new(system: &'a SpringMass<T>, eps: Option<T>) -> Self {
         let ball = |x: T| Ball::point(x.wide());
-        let balls = system.map(|x| ball(*x));
+        let balls = system.map(ball);
         let sign = system::reaction(&balls).sign();
-        let state = sign.unwrap_or_else(|| system::reaction(&system.map(|x| exact(*x))).cmp(&Exact::from(0)));
+        let state = sign.unwrap_or_else(|| system::reaction(&system.map(exact)).cmp(&Exact::from(0)));
         let balls = answer(&balls, eps.map(ball).as_ref(), state);
         Oracle { system, eps, state, balls }
     }
@@ -129,7 +129,7 @@ impl<'a, T: Narrow> Oracle<'a, T> {
         if for_certain(ball.lower(), ball.upper()) {
             return true;
         }
-        let answer = answer(&self.system.map(|x| exact(*x)), self.eps.map(exact).as_ref(), self.state);
+        let answer = answer(&self.system.map(exact), self.eps.map(exact).as_ref(), self.state);
         exactly(&answer[part])
     }
 
@@ -220,7 +220,7 @@ impl<T: Narrow> Field for Roomy<T> {
 /// Returns `true` if T can represent all results; then no overflow may be reported.
 fn has_room<T: Narrow>(system: &SpringMass<T>, eps: T) -> bool {
     let number = |x: T| roomy::<T>(x.wide(), [&Roomy(0.0, true, PhantomData); 2]);
-    let (system, eps) = (system.map(|x| number(*x)), number(eps));
+    let (system, eps) = (system.map(number), number(eps));
     let [free, held, penalised] = [
         answer(&system, None, Ordering::Less),
         answer(&system, None, Ordering::Greater),
@@ -232,7 +232,7 @@ fn has_room<T: Narrow>(system: &SpringMass<T>, eps: T) -> bool {
 
 /// Returns the error in a solve, if any.
 fn check<T: Narrow>(parameter: &Parameter<T>, x: T, method: &Method<T>) -> Option<String> {
-    let (mut system, mut eps) = (SYSTEM.map(|x| T::nearest(*x)), T::nearest(PENALTY));
+    let (mut system, mut eps) = (SYSTEM.map(T::nearest), T::nearest(PENALTY));
     (parameter.set)(&mut system, &mut eps, x);
     let mut method = *method;
     match &mut method {

@@ -205,7 +205,7 @@ fn an_exponential_wall() {
         // Slope 4 + ε and ten roundings of sizes up to 8 + 2 ε: within 100 η.
         assert!(p.upper - p.lower < 1e-14 || p.upper - p.lower <= tolerance, "{answer:?}");
     }
-    let system = example().map(|x| exact(x).to_mpfr(400));
+    let system = example().as_ref().map(|x| exact(x).to_mpfr(400));
     let tolerance = Exact::power_of_two(-380).to_mpfr(400);
     let answer = solve_functional(&system, &[float(400)], &tolerance, |[eps], p| exponential(eps, p));
     assert_eq!(answer.unwrap().outcome, Outcome::Converged);
@@ -214,7 +214,7 @@ fn an_exponential_wall() {
 /// High precision needs few values of W if it is smooth: the digits double with each step.
 #[test]
 fn digits_double() {
-    let (s, tolerance, count) = (example().map(exact), Exact::power_of_two(-20_000), Cell::new(0));
+    let (s, tolerance, count) = (example().as_ref().map(exact), Exact::power_of_two(-20_000), Cell::new(0));
     let counted = |[eps]: &[DualEnclosure<Exact>; 1], p: &DualEnclosure<Exact>| {
         count.set(count.get() + 1);
         cubic(eps, p)
@@ -229,7 +229,7 @@ fn digits_double() {
 /// ten thousand steps. The bounds still hold, and no floor is reported.
 #[test]
 fn ten_thousand_steps_are_enough() {
-    let s = example().map(|x| exact(x).to_mpfr(11_000));
+    let s = example().as_ref().map(|x| exact(x).to_mpfr(11_000));
     let [force, tolerance] = [int(10), Exact::power_of_two(-10_900)].map(|x| x.to_mpfr(11_000));
     let found = solve_functional(&s, &[force], &tolerance, |[force], p| force * beyond_part(p, 7)).unwrap();
     assert_eq!((found.outcome, &found.floor), (Outcome::IterationLimit, &None));
@@ -348,14 +348,14 @@ fn silly_functionals_come_to_an_end() {
     assert!(p.lower > 0.0 && p.upper < 1e-150 && p.upper / p.lower < 1.1, "{huge:?}");
     let larger = solved(|eps, p| penalty::functional(eps, p) * Number::int(1000), f64::MAX);
     let eps = constant(&(exact(&f64::MAX) * int(1000)));
-    bounds_hold(&example().map(exact), &larger, &1e-200, |p| penalty::functional(&eps, p));
+    bounds_hold(&example().as_ref().map(exact), &larger, &1e-200, |p| penalty::functional(&eps, p));
     // Nothing to be found but by halving: a force that jumps from 0 to 10 at 1/7.
     let jump = solved(|force, p| force * beyond_part(p, 7), 10.0);
     let p = &jump.bounds.penetration;
     assert!(p.contains(&(1.0 / 7.0)) && p.upper - p.lower < 1e-15, "{jump:?}");
     // A fiftieth power, in rationals: 1600 p⁴⁹ · … has its root far from where lines point.
     let power = |[eps]: &[Dual<Exact>; 1], p: &Dual<Exact>| (0..50).fold(eps.clone(), |w, _| w * p);
-    let s = example().map(exact);
+    let s = example().as_ref().map(exact);
     let found = solve_functional(&s, &[int(1)], &Exact::power_of_two(-40), power).unwrap();
     assert_eq!(found.outcome, Outcome::Converged);
 }

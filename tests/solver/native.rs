@@ -13,7 +13,7 @@ fn native_f64_gives_the_bits_of_f64() {
         let found = case.map(|x| Native(*x)).solutions(30);
         assert_eq!(format!("{found:?}"), format!("{expected:?}"));
         for ((_, _, found), (_, _, expected)) in found.iter().zip(&expected) {
-            let residuals = found.residuals(&case.system.map(|x| Native(*x)));
+            let residuals = found.residuals(&case.system.map(Native));
             assert_eq!(residuals, expected.residuals(&case.system));
         }
     });

@@ -124,9 +124,9 @@ fn grazing_has_no_force_however_it_is_rounded() {
     for (n, b) in (2001..4001).step_by(100).flat_map(|n| (1001..2001).step_by(50).map(move |b| (n, b))) {
         let a = 64 * n;
         let system = SpringMass { c: 3, m: 3 * (a - b), g: a + b, l: b * b, h: 1 };
-        let system = SpringMass { h: int(a) * int(a), ..system.map(|x| int(*x)) };
-        let floats = system.map(|x| x.to_f32().unwrap());
-        assert_eq!(floats.map(exact), system, "the parameters fit");
+        let system = SpringMass { h: int(a) * int(a), ..system.map(int) };
+        let floats = system.as_ref().map(|x| x.to_f32().unwrap());
+        assert_eq!(floats.as_ref().map(exact), system, "the parameters fit");
         rounded += u32::from(!system::reaction(&floats).is_zero());
         for (_, solve) in planes() {
             let answer = solve(&floats, &Method::Lagrange).unwrap();
@@ -269,7 +269,7 @@ fn every_function_rejects_an_invalid_system() {
     named(rounding_floor(&good, plane, &negative), "unit roundoff");
     named(penalty_force_bound(&good, &4.0, &negative), "unit roundoff");
     named(best_penalty(&good, &negative), "unit roundoff");
-    let exactly = good.map(exact);
+    let exactly = good.as_ref().map(exact);
     named(required_precision(&exactly, plane, &int(0)), "tolerance");
     named(required_precision(&SpringMass { c: int(0), ..exactly.clone() }, plane, &int(1)), "stiffness");
     named(exact_augmentation_count(&exactly, &int(-4), &int(1), &int(0), plane), "penalty");
@@ -345,7 +345,8 @@ fn a_penalty_may_be_as_large_as_a_float() {
     for (_, solve) in planes() {
         let force = |penalty| solve(&system, &Method::Penalty { penalty }).unwrap().bounds.contact_force;
         for penalty in [1e308, f64::MAX / 2.0] {
-            let exactly = penalty::contact_force_at_equilibrium(&system.map(exact), &exact(&penalty));
+            let exactly =
+                penalty::contact_force_at_equilibrium(&system.as_ref().map(exact), &exact(&penalty));
             assert!(encloses(&force(penalty), &exactly));
             // As narrow as for a penalty that overflows nothing.
             assert!(force(penalty).width() <= 2.0 * force(1e300).width());
@@ -356,7 +357,7 @@ fn a_penalty_may_be_as_large_as_a_float() {
     let light = SpringMass { c: 1e-269, m: 1e-269, g: 9.81, l: 1.0, h: 1.05 };
     for (system, penalty) in [(strong, 1e9), (light, 1e-272), (light, 1e-269), (light, 1e-265)] {
         let force = solve(&system, &Method::Penalty { penalty }).unwrap().bounds.contact_force;
-        let exactly = penalty::contact_force_at_equilibrium(&system.map(exact), &exact(&penalty));
+        let exactly = penalty::contact_force_at_equilibrium(&system.as_ref().map(exact), &exact(&penalty));
         assert!(encloses(&force, &exactly) && force.width() <= 1e-14 * force.upper, "{penalty}: {force}");
     }
 }
@@ -371,7 +372,7 @@ fn an_augmentation_of_endless_digits_is_refused() {
     assert_eq!(refused.to_string(), said);
     // Constants of MPFR are rationals, too.
     let constant = |x: &Exact| Mpfr::constant(x.clone().into());
-    let refused = solve(&system.map(constant), &Method::augmented(constant(&soft))).unwrap_err();
+    let refused = solve(&system.as_ref().map(constant), &Method::augmented(constant(&soft))).unwrap_err();
     assert!(matches!(refused, SolveError::TooLong { .. }), "{refused}");
     // A thousand steps of everyday numbers are none too many.
     let answer = solve(&system, &Method::augmented(q("0.001"))).unwrap();
@@ -389,7 +390,7 @@ fn floor(system: &SpringMass<Exact>, eta: &Exact) -> Option<Exact> {
 #[test]
 fn guaranteed_tolerances_begin_at_the_drift() {
     let pulls = SpringMass { c: 4.0, m: 1.0, g: -10.0, l: -1.0, h: -3.0 };
-    for system in [example(), pulls].map(|s| s.map(exact)) {
+    for system in [example(), pulls].map(|s| s.as_ref().map(exact)) {
         let reaches = |tolerance: &Exact, eta: &Exact| {
             is_convergence_guaranteed(&system, &int(4), tolerance, eta).unwrap()
         };
@@ -408,7 +409,7 @@ fn guaranteed_tolerances_begin_at_the_drift() {
 /// precision, and 287/120 with 7. A tolerance equal to the floor is not above it.
 #[test]
 fn a_tolerance_is_above_the_floor() {
-    let system = SpringMass { c: 1, m: 1, g: 8, l: 0, h: 7 }.map(|x| int(*x));
+    let system = SpringMass { c: 1, m: 1, g: 8, l: 0, h: 7 }.map(int);
     assert_eq!([floor(&system, &q("1/64")), floor(&system, &q("1/63"))], [Some(q("41/8")), None]);
     let bits = |tolerance| required_precision(&system, Plane::Unilateral, &q(tolerance)).unwrap();
     assert_eq!([bits("41/8"), bits("6")], [Some(7), Some(6)]);

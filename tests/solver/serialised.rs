@@ -50,7 +50,7 @@ fn texts_that_are_not_numbers_are_rejected() {
 
 #[test]
 fn advice_has_the_fields_of_its_choices() {
-    let advice = advise(&example().map(exact), &q("1/4")).unwrap();
+    let advice = advise(&example().as_ref().map(exact), &q("1/4")).unwrap();
     let value = serde_json::to_value(&advice).unwrap();
     assert_eq!((value["state"].clone(), value["floor"].clone()), (json!("contact"), json!("0")));
     let expected = json!({

@@ -86,7 +86,7 @@ fn a_stagnation_reports_the_attained_penetration() {
     let answer = solve(&example(), &augmentation(4.0, 1e-300, 99, 0.0)).unwrap();
     let first = format!("contact, stagnated at k = {}, |u − u*| at most ", answer.augmentations.unwrap());
     assert!(answer.to_string().starts_with(&first), "{answer}");
-    let direct = solve(&example().map(exact), &Method::Lagrange).unwrap();
+    let direct = solve(&example().as_ref().map(exact), &Method::Lagrange).unwrap();
     let lines =
         ["contact, direct", "u = 2 m, exact 2 m", "p = 0 m, exact 0 m", "N = 2 N, exact 2 N", "λ = 2 N"];
     assert_eq!(direct.to_string().lines().collect::<Vec<_>>(), lines);

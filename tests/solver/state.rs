@@ -17,7 +17,7 @@ fn state_for(r: &Exact) -> State {
 
 /// Asserts that the state is that of R in rationals.
 fn state_is_exact<T: Float>(system: &SpringMass<T>) {
-    let numbers = system.map(exact);
+    let numbers = system.as_ref().map(exact);
     assert_eq!(State::of(system), Ok(state_for(&system::reaction(&numbers))), "{numbers:?}");
 }
 

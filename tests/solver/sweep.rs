@@ -37,7 +37,7 @@ fn equals_a_solve<T: Scalar + ToExact>(case: &Case<T>, rounded: impl Fn(&Exact) 
     let force = (answer.state != State::Separated).then(|| rounded(&product));
     assert_eq!(found.penalty_force, force);
     // No force is what a plane pushes with that does not, and nothing is a part of it.
-    let r = pushing(&case.system.map(exact));
+    let r = pushing(&case.system.as_ref().map(exact));
     let relative = |n: &T| (!r.is_zero()).then(|| (exact(n) / &r - int(1)).abs());
     assert_eq!(found.force_error, relative(&found.contact_force));
     assert_eq!(found.penalty_force_error, force.as_ref().and_then(relative));
@@ -73,7 +73,7 @@ fn the_error_is_the_springs_until_rounding<T: Float>(floats: &Case<T>) {
 /// rounding leaves x within η e of 1, so (x − 1)²/x ≤ η² e²/(1 − η). At ε̂/2 this term is at least (½ − η)²
 /// e², and at 2 ε̂ at least (1 − 2η)² e²/(2 + 2η); both are larger for η ≤ 1/8.
 fn no_penalty_is_better_than_the_best<T: Float>(floats: &Case<T>) {
-    let s = &floats.system.map(exact);
+    let s = &floats.system.as_ref().map(exact);
     let r = system::reaction(s);
     let bound = |eps: &Exact| short(s, eps) + rounding::penalty_force_error(s, eps, &floats.precision()) / &r;
     if let Some(best) = best_penalty(&floats.system, &floats.eta()).unwrap() {
@@ -155,8 +155,8 @@ fn large_and_small_penalties_have_three_digits() {
 #[test]
 fn the_best_penalty_has_the_digits_of_its_scalar() {
     fn has_its_digits<T: Float>(like: &T) {
-        let system = default_system().map(|x| like.round_from_exact(x).unwrap());
-        let (s, eta) = (system.map(exact), unit_roundoff(like));
+        let system = default_system().as_ref().map(|x| like.round_from_exact(x).unwrap());
+        let (s, eta) = (system.as_ref().map(exact), unit_roundoff(like));
         let best = exact(&best_penalty(&system, &eta).unwrap().unwrap());
         let lengths = s.h.abs() + int(5) * system::gap(&s).abs();
         let square = &s.c * system::reaction(&s) / (&eta * lengths * (int(1) + int(8) * &eta));

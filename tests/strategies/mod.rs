@@ -67,7 +67,7 @@ pub struct Case<T> {
 impl<T> Case<T> {
     pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> Case<U> {
         Case {
-            system: self.system.map(&mut f),
+            system: self.system.as_ref().map(&mut f),
             eps: f(&self.eps),
             start: f(&self.start),
             tolerance: f(&self.tolerance),
@@ -236,7 +236,7 @@ pub fn pushing(s: &SpringMass<Exact>) -> Exact {
 
 /// Returns the default system of the command: Δ = 0.05, R = 4.81.
 pub fn default_system() -> SpringMass<Exact> {
-    SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.map(|x| q(x))
+    SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.map(q)
 }
 
 /// Returns the system of the doc examples: Δ = 2, R = 2.

@@ -50,7 +50,12 @@ struct Case<T> {
 
 impl<T> Case<T> {
     fn map<U>(&self, f: impl Fn(&T) -> U) -> Case<U> {
-        Case { system: self.system.map(&f), eps: f(&self.eps), lambda: f(&self.lambda), steps: self.steps }
+        Case {
+            system: self.system.as_ref().map(&f),
+            eps: f(&self.eps),
+            lambda: f(&self.lambda),
+            steps: self.steps,
+        }
     }
 }
 
@@ -173,7 +178,7 @@ fn verdict<T: PositivePart + ToExact>(
     let [Ok(before), Ok(after), Ok(later), Ok(u)] = values.map(ToExact::to_exact) else {
         return String::new();
     };
-    let exact_system = system.try_map(ToExact::to_exact).unwrap();
+    let exact_system = system.as_ref().try_map(ToExact::to_exact).unwrap();
     let reaction = system::reaction(&exact_system);
     let force = if one { contact::contact_force(&exact_system) } else { reaction.clone() };
     let (zero, p) = (Exact::from(0), contact::penetration(&exact_system, &u));

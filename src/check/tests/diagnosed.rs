@@ -30,7 +30,7 @@ fn held(s: &SpringMass<Exact>) -> [Exact; 2] {
 
 /// (1.16) in f64, with N of the last step or of the one before.
 fn augmented(s: &SpringMass<Exact>, steps: usize, eps: f64, lags: bool) -> [Exact; 2] {
-    let system = s.try_map(Exact::to_f64).unwrap();
+    let system = s.as_ref().try_map(Exact::to_f64).unwrap();
     let (mut u, mut lambda, mut before) = (0.0, 0.0, 0.0);
     for _ in 0..steps {
         before = lambda;
@@ -111,9 +111,11 @@ fn each_mistake_has_its_name() {
         ("H is rounded to single precision", |s, _, _| {
             solved(&s.c, &s.m, &s.g, &s.l, &s.h.to_f32().unwrap().to_exact().unwrap())
         }),
-        ("c, m, g, l and H are rounded to 6 digits", |s, _, _| solution(s.map(|x| rounded(x, 6)), None)),
+        ("c, m, g, l and H are rounded to 6 digits", |s, _, _| {
+            solution(s.as_ref().map(|x| rounded(x, 6)), None)
+        }),
         ("it computes in single precision", |s, _, _| {
-            let SpringMass { c, m, g, l, h } = s.try_map(Exact::to_f32).unwrap();
+            let SpringMass { c, m, g, l, h } = s.as_ref().try_map(Exact::to_f32).unwrap();
             let u = (m * g / c).min(h - l);
             [u, (m * g - c * u).max(0.0)].map(|x| number(&format!("{x:e}")))
         }),
@@ -213,7 +215,7 @@ fn a_state_or_a_parameter_separates_wrong_answers() {
 #[test]
 fn an_answer_without_force_is_located() {
     let report = run(&default_problems(), |problem| {
-        let floats = problem.system.try_map(Exact::to_f64).unwrap();
+        let floats = problem.system.as_ref().try_map(Exact::to_f64).unwrap();
         if system::reaction(&floats) == 0.0 { Answer::default() } else { right(problem) }
     });
     assert_eq!(report.conditions, [FailureCondition { state: Some(State::Grazing), threshold: None }]);
@@ -431,7 +433,7 @@ fn nothing_else_is_named() {
         (
             "forces of at most the weight, whose rounding errors are not those of a penalty of 10¹⁵ c",
             |problem, _, _| {
-                let SpringMass { c, m, g, l, h } = problem.system.try_map(Exact::to_f64).unwrap();
+                let SpringMass { c, m, g, l, h } = problem.system.as_ref().try_map(Exact::to_f64).unwrap();
                 let u = (m * g / c).min(h - l);
                 [u, (m * g - c * u).max(0.0).min((m * g).abs())].map(|x| x.to_exact().unwrap())
             },

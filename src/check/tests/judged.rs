@@ -10,7 +10,7 @@ fn assess(problem: &Problem, answer: Answer, tolerance: &str) -> Assessment {
 fn a_correct_program_has_no_diagnosis() {
     for problems in [default_problems(), with_penalties(default_problems())] {
         let in_f64 = |problem: &Problem| {
-            let system = problem.system.try_map(Exact::to_f64).unwrap();
+            let system = problem.system.as_ref().try_map(Exact::to_f64).unwrap();
             let method = match &problem.penalty {
                 None => Method::Lagrange,
                 Some(penalty) => Method::Penalty { penalty: penalty.to_f64().unwrap() },
@@ -167,7 +167,7 @@ fn findings_describe_the_error() {
         // The value of the problem, and just beyond the tolerance.
         let finding = |factor: &str| {
             let parameters = SpringMass::KEYS.zip(problem.system.as_ref());
-            let used = parameters.map(|(other, x)| (*other == key).then(|| Some(*x * number(factor))));
+            let used = parameters.map(|(other, x)| (other == key).then(|| Some(x * number(factor))));
             let mut answer = right(problem);
             answer.used.system = used;
             assess(problem, answer, TOLERANCE).finding
@@ -182,12 +182,12 @@ fn findings_describe_the_error() {
 fn an_answer_is_compared_with_the_method_that_it_used() {
     let all = problems(1, 20, &[Family::Far]);
     let single = |problem: &Problem| {
-        let used = problem.system.map(|x| x.to_f32().unwrap().to_exact().unwrap());
+        let used = problem.system.as_ref().map(|x| x.to_f32().unwrap().to_exact().unwrap());
         let exact = right(&Problem { system: used.clone(), ..problem.clone() });
         let single = |x: Option<Exact>| x.map(|x| x.to_f32().unwrap().to_exact().unwrap());
         let [u, n] = [exact.deflection, exact.contact_force].map(single);
         let mut answer = Answer { deflection: u, contact_force: n, ..Answer::default() };
-        answer.used.system = used.map(|x| Some(Some(x.clone())));
+        answer.used.system = used.map(|x| Some(Some(x)));
         answer
     };
     let report = run(&all, single);

@@ -54,7 +54,7 @@ fn every_edit_is_named() {
 
 /// Returns the answer in f64, as of a program that parses the decimals of a request.
 fn answer_in_f64(program: &Program, problem: &Problem) -> Answer {
-    let system = problem.system.try_map(Exact::to_f64).unwrap();
+    let system = problem.system.as_ref().try_map(Exact::to_f64).unwrap();
     let eps = problem.penalty.as_ref().map(|eps| eps.to_f64().unwrap());
     let known = Known::new(&system, eps.as_ref(), None);
     let values = program.values(&known, program.touches(&known));
@@ -89,7 +89,7 @@ fn numbers_change_what_they_say() {
         for problem in default_problems() {
             let parameters = SpringMass::SYMBOLS.zip(problem.system.as_ref());
             let system = parameters
-                .map(|(symbol, x)| if symbols.contains(symbol) { change(x, &k) } else { (*x).clone() });
+                .map(|(symbol, x)| if symbols.contains(&symbol) { change(x, &k) } else { x.clone() });
             let found = answer(&mistake.program, &problem, Some(&k));
             assert_eq!(found, right(&Problem { system, ..problem }), "{name}");
         }

@@ -13,7 +13,7 @@ const N: &str = "N in newtons";
 
 /// Returns the example with another gravity.
 pub fn example(g: i32) -> SpringMass<Exact> {
-    SpringMass { c: 4, m: 1, g, l: 1, h: 3 }.map(|&n| Exact::from(n))
+    SpringMass { c: 4, m: 1, g, l: 1, h: 3 }.map(Exact::from)
 }
 
 /// Converts a number for drawing.

@@ -93,9 +93,9 @@ fn default() -> SpringMass<Exact> {
 /// Returns the relative errors of u, of m g − c u and of ε p against ε. An error of 0 cannot be shown on a logarithmic
 /// axis.
 fn errors<T: Scalar + ToExact>(penalties: &[Exact], round: impl Fn(&Exact) -> T) -> [Vec<(f64, f64)>; 3] {
-    let system = default().map(&round);
+    let system = default().as_ref().map(&round);
     let exact = |x: &T| x.to_exact().expect("a finite number");
-    let right = contact::deflection(&system.map(exact));
+    let right = contact::deflection(&system.as_ref().map(exact));
     let mut curves = [const { Vec::new() }; 3];
     for row in solver::sweep(&system, penalties.iter().map(&round)).map_while(Result::ok) {
         let deflection = ((exact(&row.deflection) - &right) / &right).abs();

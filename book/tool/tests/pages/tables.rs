@@ -13,7 +13,7 @@ fn exact(text: &str) -> Exact {
 }
 
 fn example(g: &str) -> SpringMass<Exact> {
-    SpringMass { c: "4", m: "1", g, l: "1", h: "3" }.map(|text| exact(text))
+    SpringMass { c: "4", m: "1", g, l: "1", h: "3" }.map(exact)
 }
 
 /// Returns the rows of the table with this head, of which there have to be `count`.
@@ -33,7 +33,7 @@ fn assert_row(row: &[String], expected: &[Exact]) {
 
 #[test]
 fn tables_agree_with_the_functions() {
-    let default = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.map(|text| exact(text));
+    let default = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" }.map(exact);
     let head = r"| system | $c$ | $m$ | $g$ | $l$ | $H$ | $\Delta$ | $m\,g$ | $R$ |";
     for (row, s) in rows("introduction", head, 2).iter().zip([example("10"), default]) {
         let derived = [system::gap(&s), system::weight(&s), system::reaction(&s)];
