@@ -25,7 +25,8 @@ pub enum ScalarLaw {
     Sign,
     /// [`power`](Scalar::power) encloses the power.
     Power,
-    /// [`sign_of_sum`](Scalar::sign_of_sum) is exact.
+    /// [`sign_of_sum`](Scalar::sign_of_sum) is exact. A [`Native`](crate::number::Native) without exact values, such as
+    /// `TwoFloat` of the crate `twofloat` 0.8, violates it.
     SignOfSum,
 }
 
