@@ -29,6 +29,7 @@ mod exact;
 mod floats;
 mod format;
 mod laws;
+mod lossy;
 mod mpfr;
 mod spellings;
 mod system;

@@ -1,0 +1,118 @@
+//! Floats whose `integer_decode` returns only a part of a number.
+
+use num_traits::{Float, Num, NumCast, One, ToPrimitive, Zero};
+use provable::number::{Native, NonFiniteError, ToExact};
+use std::num::FpCategory;
+use std::ops::{Add, Div, Mul, Neg, Rem, Sub};
+
+/// An f64 of which 24 bits are decoded, and whose precision is that of `EPSILON`.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+struct Lossy<const BITS: i32>(f64);
+
+macro_rules! operators {
+    ($($Trait:ident $method:ident)+) => {$(
+        impl<const BITS: i32> $Trait for Lossy<BITS> {
+            type Output = Self;
+            fn $method(self, other: Self) -> Self {
+                Lossy(self.0.$method(other.0))
+            }
+        }
+    )+};
+}
+operators! { Add add Sub sub Mul mul Div div Rem rem }
+
+impl<const BITS: i32> Neg for Lossy<BITS> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Lossy(-self.0)
+    }
+}
+impl<const BITS: i32> Zero for Lossy<BITS> {
+    fn zero() -> Self {
+        Lossy(0.0)
+    }
+    fn is_zero(&self) -> bool {
+        self.0 == 0.0
+    }
+}
+impl<const BITS: i32> One for Lossy<BITS> {
+    fn one() -> Self {
+        Lossy(1.0)
+    }
+}
+impl<const BITS: i32> Num for Lossy<BITS> {
+    type FromStrRadixErr = <f64 as Num>::FromStrRadixErr;
+    fn from_str_radix(text: &str, radix: u32) -> Result<Self, Self::FromStrRadixErr> {
+        f64::from_str_radix(text, radix).map(Lossy)
+    }
+}
+impl<const BITS: i32> ToPrimitive for Lossy<BITS> {
+    fn to_i64(&self) -> Option<i64> {
+        self.0.to_i64()
+    }
+    fn to_u64(&self) -> Option<u64> {
+        self.0.to_u64()
+    }
+    fn to_f64(&self) -> Option<f64> {
+        Some(self.0)
+    }
+}
+impl<const BITS: i32> NumCast for Lossy<BITS> {
+    fn from<T: ToPrimitive>(x: T) -> Option<Self> {
+        x.to_f64().map(Lossy)
+    }
+}
+
+macro_rules! float {
+    (constants: $($constant:ident)+; tests: $($test:ident)+; functions: $($function:ident)+; of two: $($of_two:ident)+;) => {
+        impl<const BITS: i32> Float for Lossy<BITS> {
+            $(fn $constant() -> Self {
+                Lossy(<f64 as Float>::$constant())
+            })+
+            $(fn $test(self) -> bool {
+                self.0.$test()
+            })+
+            $(fn $function(self) -> Self {
+                Lossy(Float::$function(self.0))
+            })+
+            $(fn $of_two(self, other: Self) -> Self {
+                Lossy(Float::$of_two(self.0, other.0))
+            })+
+            fn epsilon() -> Self {
+                Lossy(2f64.powi(1 - BITS))
+            }
+            fn classify(self) -> FpCategory {
+                self.0.classify()
+            }
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                Lossy(self.0.mul_add(a.0, b.0))
+            }
+            fn powi(self, n: i32) -> Self {
+                Lossy(self.0.powi(n))
+            }
+            fn sin_cos(self) -> (Self, Self) {
+                (self.sin(), self.cos())
+            }
+            fn integer_decode(self) -> (u64, i16, i8) {
+                assert!(BITS <= 64, "{BITS} bits");
+                Float::integer_decode(self.0 as f32)
+            }
+        }
+    };
+}
+float! {
+    constants: nan infinity neg_infinity neg_zero min_value min_positive_value max_value;
+    tests: is_nan is_infinite is_finite is_normal is_sign_positive is_sign_negative;
+    functions: floor ceil round trunc fract abs signum recip sqrt exp exp2 ln log2 log10 cbrt sin cos tan asin acos atan
+        exp_m1 ln_1p sinh cosh tanh asinh acosh atanh;
+    of two: powf log max min abs_sub hypot atan2;
+}
+
+/// A part is no value, and a number of more than 64 bits is not decoded.
+#[test]
+fn a_number_that_is_decoded_in_part_has_no_exact_value() {
+    let third = 1.0 / 3.0;
+    assert_eq!(Native(Lossy::<53>(0.75)).to_exact(), 0.75.to_exact());
+    assert_eq!(Native(Lossy::<53>(third)).to_exact(), Err(NonFiniteError::Incomplete));
+    assert_eq!(Native(Lossy::<106>(0.75)).to_exact(), Err(NonFiniteError::Incomplete));
+}
