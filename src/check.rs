@@ -82,6 +82,35 @@ pub fn check<E>(
     Ok(report)
 }
 
+/// Assesses the answers of a table in rationals, and diagnoses the mistakes of the solver that gave them. Like [`check`]
+/// without repetition; nothing is concluded from the order of the answers.
+///
+/// # Panics
+/// Panics if c, m or ε of a problem is not positive.
+///
+/// # Examples
+///
+/// ```
+/// use spring_mass_contact::chapter::SpringMass;
+/// use spring_mass_contact::check::{Answer, Family, Problem, Reply, check_table};
+///
+/// let system = SpringMass { c: "100", m: "1", g: "9.81", l: "1", h: "1.05" };
+/// let problem = Problem::own("run-1", system.parse()?, None)?;
+/// let answer = Answer::new("0.05".parse()?, "4.81".parse()?);
+/// let report = check_table(vec![(problem, Reply::Answered(Box::new(answer)))], &"1e-6".parse()?);
+/// assert_eq!((report.summary().right, report.families()[0].family), (1, Family::Contact));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn check_table(answers: Vec<(Problem, Reply)>, tolerance: &Exact) -> Report {
+    let mut report = Report::default();
+    let reference = Reference::of(answers.iter().map(|(problem, _)| problem));
+    for (problem, reply) in answers {
+        report.add(CaseResult::of(0, &problem, reply, tolerance));
+    }
+    report.diagnose(reference, tolerance);
+    report
+}
+
 /// Largest number of problems that are asked again.
 const MAX_REPEATED: usize = 12;
 

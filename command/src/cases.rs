@@ -5,11 +5,13 @@ use crate::output::{self, Exit, Failure, formats, record};
 use serde::Serialize;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::check::{self, Family, Problem, problems};
+use spring_mass_contact::solver::Solution;
 
 const EXAMPLES: &str = "\
 Examples:
   contact cases
   contact cases --family near --family far --cases 100 --seed 7 --format json
+  contact cases --blank > sheet.csv
 
 Parameters are decimals with at most 12 significant digits, to be read exactly;
 solutions are exact fractions for unilateral contact: the plane never pulls.
@@ -21,6 +23,9 @@ solutions are exact fractions for unilateral contact: the plane never pulls.
 pub struct Options {
     #[command(flatten)]
     drawn: Selection,
+    /// Leave the solutions empty: a sheet to fill in for `contact check --answers`
+    #[arg(long)]
+    blank: bool,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Csv)]
     format: Format,
@@ -55,17 +60,20 @@ impl Selection {
 
 /// Prints the systems.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
-    let cases: Vec<_> = options.drawn.problems().into_iter().map(case).collect();
+    let cases: Vec<_> =
+        options.drawn.problems().into_iter().map(|problem| case(problem, options.blank)).collect();
     output::print(|out| match options.format {
         Format::Csv => output::csv(out, &cases),
         Format::Json => output::json(out, &cases),
     })
 }
 
-/// Returns a system with its exact solution.
-fn case(problem: Problem) -> impl Serialize {
+/// Returns a system with its exact solution, which may be left empty.
+fn case(problem: Problem, is_blank: bool) -> impl Serialize {
     let SpringMass { c, m, g, l, h } = problem.system.as_ref().map(format_exact);
-    let exact = problem.solution();
+    let Solution { deflection, penetration, contact_force, .. } = problem.solution();
+    let [deflection, penetration, contact_force] =
+        [deflection, penetration, contact_force].map(|x| Some(x).filter(|_| !is_blank));
     record! {
         id: problem.id,
         family: problem.family,
@@ -74,8 +82,8 @@ fn case(problem: Problem) -> impl Serialize {
         gravity: g,
         free_length: l,
         height: h,
-        deflection: exact.deflection,
-        penetration: exact.penetration,
-        contact_force: exact.contact_force,
+        deflection: deflection,
+        penetration: penetration,
+        contact_force: contact_force,
     }
 }

@@ -271,7 +271,7 @@ pub fn clap_message(mut error: clap::Error, commands: &[&str]) -> Result<Exit, F
         ErrorKind::UnknownArgument => {
             let takes_program = matches!(
                 error.get(ContextKind::Usage),
-                Some(ContextValue::StyledStr(usage)) if usage.to_string().contains(" -- ")
+                Some(ContextValue::StyledStr(usage)) if usage.to_string().contains("-- ")
             );
             let program = if takes_program { "; a program and its arguments stand after --" } else { "" };
             format!("{program}; --help lists what is allowed")

@@ -261,7 +261,7 @@ fn lags(system: &SpringMass<Exact>, steps: &[[ReportedNumber; 2]], tolerance: &E
 /// A problem with its reply and assessment.
 #[derive(Clone, Debug)]
 pub struct CaseResult {
-    /// The number of requests before it.
+    /// The number of requests before it; 0 in a table.
     pub number: usize,
     /// The problem.
     pub problem: Problem,

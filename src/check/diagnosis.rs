@@ -7,7 +7,7 @@ use super::output::{few_digits, sums_or_factors};
 use super::precision::rounded_parameters;
 use super::problems::{Family, Problem, problems};
 use super::program::{Kind, Known, Mistake, Reference};
-use super::scales::{fit, format_short};
+use super::scales::{fit, format_short, short};
 use crate::chapter::{contact, system};
 use crate::claims::registry;
 use crate::formula::Notation;
@@ -132,7 +132,11 @@ impl<'a> Search<'a> {
         }
         let samples = wrong.iter().step_by(wrong.len().div_ceil(SAMPLES).max(1));
         let mut numbers = samples.flat_map(|answer| estimates(mistake, answer)).filter(|k| !k.is_zero());
-        numbers.find(|k| self.explains_all(mistake, Some(k), answers)).map(Some)
+        let explains = |k: &Exact| self.explains_all(mistake, Some(k), answers);
+        let k = numbers.find(explains)?;
+        // Answers of few digits determine it roughly, and it is probably a round number.
+        let shortest = (1..=3).map(|digits| short(&k, digits)).find(explains);
+        Some(Some(shortest.unwrap_or(k)))
     }
 
     fn explanation(&self, mistake: &'static Mistake, k: Option<Exact>) -> Explanation {

@@ -6,7 +6,7 @@
 use super::scales::{decimal, scales, short};
 use crate::chapter::{SpringMass, contact, penalty, structure};
 use crate::number::{Exact, PositivePart};
-use crate::solver::{Method, Solution, solve};
+use crate::solver::{Method, Solution, SolveError, State, solve};
 use num_traits::{One, Zero};
 use oorandom::Rand64;
 use rug::float::Round;
@@ -133,6 +133,19 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// Returns the problem of a system of one's own, in the family of its state; ε > 0 in N/m for the penalty method.
+    ///
+    /// # Errors
+    /// Returns [`SolveError::Invalid`] if c or m is not positive.
+    pub fn own(id: &str, system: SpringMass<Exact>, penalty: Option<Exact>) -> Result<Self, SolveError> {
+        let family = match State::of(&system)? {
+            State::Contact => Family::Contact,
+            State::Separated => Family::Separated,
+            State::Grazing => Family::Grazing,
+        };
+        Ok(Problem { id: id.to_string(), family, system, penalty })
+    }
+
     /// Returns the exact solution of (1.6), or of (1.13) and (1.12) with unilateral contact.
     ///
     /// # Panics

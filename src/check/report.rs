@@ -215,7 +215,8 @@ impl Report {
 fn carried_over(answers: &[Observation]) -> Vec<[usize; 2]> {
     let mut all = Vec::new();
     for (i, answer) in answers.iter().enumerate().filter(|(_, answer)| answer.is_wrong()) {
-        let mut earlier = answers[..i].iter().rev().filter(|earlier| !earlier.is_wrong());
+        let before = |earlier: &&Observation| earlier.result.number < answer.result.number;
+        let mut earlier = answers[..i].iter().rev().filter(|earlier| before(earlier) && !earlier.is_wrong());
         let same = earlier.find(|earlier| earlier.numbers() == answer.numbers());
         all.extend(same.map(|earlier| [answer.index, earlier.index]));
     }

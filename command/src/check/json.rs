@@ -1,8 +1,8 @@
 //! The report as JSON: quantities are texts, and every key is always present.
 
-use super::Options;
 use super::program::request;
 use super::report::rounding;
+use super::{Options, Subject};
 use crate::args::format_exact;
 use crate::output::record;
 use serde::Serialize;
@@ -16,10 +16,13 @@ use spring_mass_contact::rug::float::Round;
 /// Number of digits of an error.
 const DIGITS: usize = 6;
 
-/// Returns the report with the program and the options.
-pub fn report(program: &str, options: &Options, report: &Report) -> impl Serialize {
+/// Returns the report with what is checked and the options.
+pub fn report(of: &Subject, options: &Options, report: &Report) -> impl Serialize {
+    let name = |kind| Some(of.name.clone()).filter(|_| of.kind == kind);
     record! {
-        program: program.to_string(),
+        program: name("program"),
+        answers: name("answers"),
+        missing: of.missing.iter().map(|problem| problem.id.clone()).collect::<Vec<_>>(),
         seed: options.drawn.seed,
         tolerance: format_exact(&options.tolerance.value),
         cases: report.cases(),

@@ -6,7 +6,7 @@ use crate::output::{shortened, shortened_to};
 use serde_json::value::RawValue;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::check::{Answer, Reply, ReportedNumber, UsedParameters};
-use spring_mass_contact::number::ParseError;
+use spring_mass_contact::number::{Exact, ParseError};
 use std::borrow::Cow;
 use std::fmt::Display;
 
@@ -44,6 +44,36 @@ pub fn read(line: &[u8], id: &str) -> Option<Result<Reply, String>> {
         Ok(Some(found)) if found == id => Ok(answer(object).unwrap_or_else(Reply::InvalidResponse)),
         found => Err(format!("{} instead of an answer to '{}'", answer_to(found), shortened(id))),
     })
+}
+
+/// A row of a table.
+pub struct Row {
+    /// The id.
+    pub id: String,
+    /// The parameters of the system, if it has them.
+    pub system: Option<SpringMass<Exact>>,
+    /// The answer or refusal; `None` if the row is yet to be filled in.
+    pub reply: Option<Reply>,
+}
+
+/// Returns the row of a table in a line, or the reason why it is none.
+pub fn row(line: &str) -> Result<Row, String> {
+    object(line.as_bytes(), |object| {
+        let id = object_id(object)?.ok_or("the key 'id' is missing")?.into_owned();
+        let mut digits = MAX_ANSWER_DIGITS;
+        let system = SpringMass::KEYS.try_map(|key| optional(object, "", key, &mut digits))?;
+        let is_own = system.as_ref().into_array().iter().any(|parameter| parameter.is_some());
+        let parameter = |(key, x): &(&str, Option<ReportedNumber>)| match x {
+            Some(Some(x)) => Ok(x.clone()),
+            Some(None) => Err(format!("the number for '{key}' is not finite")),
+            None => Err(format!("the key '{key}' is missing; a row has all five parameters or none")),
+        };
+        let system = is_own.then(|| SpringMass::KEYS.zip(system).try_map(parameter)).transpose()?;
+        let keys = ["deflection", "contact_force", "error"].map(|key| non_null(object, "", key));
+        let is_filled = keys.into_iter().collect::<Result<Vec<_>, _>>()?.iter().any(Option::is_some);
+        Ok(Row { id, system, reply: is_filled.then(|| answer(object)).transpose()? })
+    })
+    .unwrap_or_else(|| Err("must be a JSON object".to_string()))
 }
 
 /// Describes a line that arrived before its request; `None` if it is not an object.

@@ -1,11 +1,12 @@
 //! The report as a table and as Markdown.
 
+use super::Subject;
 use crate::args::{Number, format_exact};
 use crate::lines::NO_BREAK_SPACE;
 use crate::output::{self, counted, shortened};
 use spring_mass_contact::check::{
-    Answer, AnswerVerdict, CaseResult, Diagnosis, DiagnosisScope, FamilyResult, Reply, Report, Threshold,
-    ThresholdQuantity, VerdictCounts,
+    Answer, AnswerVerdict, CaseResult, Diagnosis, DiagnosisScope, FamilyResult, Problem, Reply, Report,
+    Threshold, ThresholdQuantity, VerdictCounts,
 };
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
@@ -19,10 +20,18 @@ const VALUE_DIGITS: usize = 12;
 /// Largest number of families with an example; JSON has all.
 const MAX_EXAMPLES: usize = 3;
 
+/// Largest number of listed systems without a row; JSON has all.
+const MAX_MISSING: usize = 12;
+
+/// Largest number of named mistakes that explain the same answers.
+const MAX_NAMED: usize = 4;
+
 /// Prints the number of answers of each kind, the families, examples of failures, and findings.
-pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &Number) -> io::Result<()> {
+pub fn table(out: &mut dyn Write, of: &Subject, report: &Report, tolerance: &Number) -> io::Result<()> {
     let within = format!("within {}", shortened(&tolerance.text));
-    output::list(out, [("program", program.to_string()), ("systems", counts(report, &within))])?;
+    let Subject { kind, name, missing } = of;
+    let systems = counts(report, &within);
+    output::list(out, [(*kind, name.clone()), ("systems", systems), ("missing", listed(missing))])?;
     writeln!(out)?;
     let families = report.families();
     output::table(out, NAMES, families.iter().map(|row| cells(row, &within)), ..)?;
@@ -38,6 +47,14 @@ pub fn table(out: &mut dyn Write, program: &str, report: &Report, tolerance: &Nu
         writeln!(out, "\n --format json contains an example of each failing family with its request.")?;
     }
     findings(out, report, tolerance)
+}
+
+/// Lists the first ids of systems without a row.
+fn listed(missing: &[Problem]) -> String {
+    let ids = missing.iter().take(MAX_MISSING).map(|problem| &*problem.id);
+    let ids = ids.chain((missing.len() > MAX_MISSING).then_some("…"));
+    let ids = ids.collect::<Vec<_>>().join(", ");
+    if ids.is_empty() { ids } else { format!("{}: {ids}", missing.len()) }
 }
 
 fn counts(report: &Report, within: &str) -> String {
@@ -277,7 +294,9 @@ fn named(diagnosis: &Diagnosis) -> String {
 
 /// Names the mistakes that explain the answers.
 fn diagnosed(report: &Report) -> Option<String> {
-    let names: Vec<_> = report.fitting().map(named).collect();
+    let count = report.fitting().count();
+    let mut names: Vec<_> = report.fitting().take(MAX_NAMED).map(named).collect();
+    names.extend((count > MAX_NAMED).then(|| format!("{} others, which JSON has", count - MAX_NAMED)));
     let Diagnosis { answers, of, .. } = report.fitting().next()?;
     let (which, others) = match answers {
         DiagnosisScope::Wrong => ("wrong answers", ", but not the right ones"),
@@ -288,7 +307,7 @@ fn diagnosed(report: &Report) -> Option<String> {
         _ => format!(
             "Each of {} mistakes explains all {of} {which}{others}: {}. More families or cases may tell which it \
              is. The first one:",
-            names.len(),
+            count,
             names.join("; "),
         ),
     })

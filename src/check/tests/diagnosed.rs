@@ -323,6 +323,32 @@ fn what_is_carried_over_is_noticed() {
     assert!(rights.holds() && rights.changed.is_empty() && rights.repeated == silent.repeated);
 }
 
+/// Answers of a table have no order: the same ones show neither that they are carried over, nor a border of requests.
+#[test]
+fn a_table_has_no_order() {
+    let all = problems(1, 20, &[Family::Contact, Family::Neighbour]);
+    let carried = |problem: &Problem| {
+        let is_base = problem.family == Family::Contact || problem.id.len() > "neighbour-9".len();
+        right(if is_base { problem } else { &all[0] })
+    };
+    let late = |problem: &Problem| {
+        let place = all.iter().position(|other| other == problem).unwrap();
+        let [u, n] = solution(problem.system.clone(), None);
+        Answer::new(u, if place < 30 { n } else { n * number("1.5") + number(&place.to_string()) })
+    };
+    let answers: [&dyn Fn(&Problem) -> Answer; 2] = [&carried, &late];
+    let findings = |report: &Report| {
+        let is_border = threshold(report, ThresholdQuantity::Position).is_some();
+        (!report.carried_over.is_empty(), is_border)
+    };
+    for (answer, expected) in answers.into_iter().zip([(true, false), (false, true)]) {
+        assert_eq!(findings(&run(&all, answer)), expected);
+        let rows = all.iter().map(|problem| (problem.clone(), Reply::Answered(Box::new(answer(problem)))));
+        let report = check_table(rows.collect(), &number(TOLERANCE));
+        assert_eq!((findings(&report), report.repeated, report.holds()), ((false, false), 0, false));
+    }
+}
+
 /// Three answers show that a base is answered for its neighbours, two do not.
 #[test]
 fn three_answers_are_carried_over() {

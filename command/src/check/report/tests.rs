@@ -23,9 +23,14 @@ fn report(problems: &[Problem], solver: impl Fn(&Problem) -> Answer) -> Report {
     replied(problems, |problem| Reply::Answered(Box::new(solver(problem))))
 }
 
+/// Returns what is checked.
+fn program() -> Subject {
+    Subject { kind: "program", name: "program".to_string(), missing: Vec::new() }
+}
+
 /// Returns the table with normalised white space.
 fn said(report: &Report) -> String {
-    let text = capture(|out| table(out, "program", report, &parse_number("1e-6").expect("a number")));
+    let text = capture(|out| table(out, &program(), report, &parse_number("1e-6").expect("a number")));
     assert_eq!(text.lines().find(|line| line.chars().count() > 80), None);
     text.split_whitespace().collect::<Vec<_>>().join(" ") + " "
 }
@@ -133,7 +138,7 @@ fn what_is_carried_over_is_reported() {
     });
     let options = Options::augment_args(clap::Command::new("check"));
     let options = Options::from_arg_matches(&options.get_matches_from(["check", "--", "program"]));
-    let json = serde_json::to_value(json::report("program", &options.expect("options"), &stale));
+    let json = serde_json::to_value(json::report(&program(), &options.expect("options"), &stale));
     let json = json.expect("a report");
     let pairs = json["carried_over"].as_array().expect("pairs").iter();
     let pairs: Vec<_> = pairs.map(|pair| [0, 1].map(|end| pair[end].as_str().expect("an id"))).collect();
