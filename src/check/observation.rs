@@ -28,7 +28,7 @@ pub(super) struct Observation<'a> {
     /// Scales of the errors of u and N.
     pub scales: [Exact; 2],
     /// Sum of the lengths of the system, and that of its forces.
-    sizes: [Exact; 2],
+    pub sizes: [Exact; 2],
     /// The system in balls around floats of 53 bits, if it is in range.
     balls: Option<SpringMass<Ball<f64>>>,
     roundings: OnceCell<[Exact; 2]>,

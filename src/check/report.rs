@@ -7,9 +7,10 @@ use super::diagnosis::{Search, lag};
 use super::explanation::{Diagnosis, DiagnosisScope, Explanation};
 use super::observation::{INFORMATIVE, Observation};
 use super::output::absolute_bounds;
+use super::penalty::ApparentPenalty;
 use super::problems::Family;
 use super::program::Reference;
-use super::scales::scales;
+use super::scales::{fit, scales};
 use crate::chapter::system;
 use crate::number::{Exact, PositivePart};
 use crate::solver::State;
@@ -38,6 +39,8 @@ pub struct Report {
     /// The largest error of u in m, of N in N, and of their equilibrium in N: each if it does not grow with the systems,
     /// and nothing else explains the errors.
     pub absolute_bounds: [Option<Exact>; 3],
+    /// The penalty with which all wrong answers are consistent, if nothing explains them.
+    pub apparent_penalty: Option<ApparentPenalty>,
     /// Mistakes that explain all answers, or otherwise all wrong answers. Empty if no answer is wrong.
     pub diagnosis: Vec<Diagnosis>,
 }
@@ -125,6 +128,7 @@ impl Report {
             self.carried_over = carried_over(&answers);
             if self.carried_over.is_empty() {
                 self.absolute_bounds = absolute_bounds(&wrong, tolerance);
+                self.apparent_penalty = ApparentPenalty::of(&wrong, &fit(tolerance));
             } else {
                 self.conditions.clear();
             }

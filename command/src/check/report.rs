@@ -5,8 +5,8 @@ use crate::args::{Number, format_exact};
 use crate::lines::NO_BREAK_SPACE;
 use crate::output::{self, counted, shortened};
 use spring_mass_contact::check::{
-    Answer, AnswerVerdict, CaseResult, Diagnosis, DiagnosisScope, FamilyResult, Problem, Reply, Report,
-    Threshold, ThresholdQuantity, VerdictCounts,
+    Answer, AnswerVerdict, ApparentPenalty, CaseResult, Diagnosis, DiagnosisScope, FamilyResult, Problem,
+    Reply, Report, Threshold, ThresholdQuantity, VerdictCounts,
 };
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
@@ -84,6 +84,7 @@ fn findings(out: &mut dyn Write, report: &Report, tolerance: &Number) -> io::Res
         (diagnosed(report), report.fitting().next()),
         (conditions(report), None),
         (unexplained(report), None),
+        (penetrating(report), None),
         (report.holds().then(|| tested(report, tolerance)), None),
     ] {
         let Some(finding) = finding else { continue };
@@ -230,9 +231,33 @@ fn unexplained(report: &Report) -> Option<String> {
     let explained = report.fitting().next().is_some()
         || report.lag().is_some()
         || !(report.conditions.is_empty() && report.changed.is_empty() && report.carried_over.is_empty())
-        || report.absolute_bounds.iter().any(Option::is_some);
+        || report.absolute_bounds.iter().any(Option::is_some)
+        || report.apparent_penalty.as_ref().is_some_and(|penalty| penalty.is_by_tens);
     (report.results.iter().any(is_wrong) && !explained)
         .then(|| "No single mistake that is searched for explains the wrong answers.".to_string())
+}
+
+/// Describes wrong answers that have a penalty each.
+fn penetrating(report: &Report) -> Option<String> {
+    let ApparentPenalty { of, unit, range, is_by_tens, penetration } = report.apparent_penalty.as_ref()?;
+    let wrong = report.summary().wrong;
+    let which = if *of == wrong {
+        format!("The {wrong} wrong answers are all")
+    } else {
+        format!("{of} of {wrong} wrong answers, all where rounding does not hide p = l + u − H, are")
+    };
+    let [least, most] = range.each_ref().map(|eps| eps.decimal(ERROR_DIGITS + 1, Round::Nearest));
+    let [least, most] = [least, most].map(|eps| unbroken(&format!("{eps} {unit}")));
+    let part = penetration.as_ref().map(|p| unbroken(&format!("{} |H − l|", upper_bound(p))));
+    let part = part.map_or(String::new(), |part| format!("; p is at most {part}"));
+    let rule = if *is_by_tens {
+        " It differs by powers of ten, as if a rule multiplied it by ten until p is small."
+    } else {
+        ""
+    };
+    Some(format!(
+        "{which} in equilibrium with p > 0, as by a penalty N/p from {least} to {most}{part}.{rule}"
+    ))
 }
 
 /// Formats a threshold: `|R|/c up to 9.9e-7 m (right from 1.3e-6 m on)`.

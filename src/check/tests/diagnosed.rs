@@ -323,6 +323,52 @@ fn what_is_carried_over_is_noticed() {
     assert!(rights.holds() && rights.changed.is_empty() && rights.repeated == silent.repeated);
 }
 
+/// Returns u and N with the penalty that a rule multiplies by ten until p is below a hundredth of |H − l|.
+fn by_rule(s: &SpringMass<Exact>, first: Exact) -> [Exact; 2] {
+    let most = system::gap(s).abs() / number("100");
+    let mut eps = first;
+    while contact::penetration(s, &by_penalty(s, eps.clone())[0]) >= most {
+        eps = eps * number("10");
+    }
+    by_penalty(s, eps)
+}
+
+/// Penalties of a rule differ by powers of ten, in N/m or in c; others do not. Without equilibrium, without penetration,
+/// or with two wrong answers there is none.
+#[test]
+fn unexplained_answers_have_an_apparent_penalty() {
+    let [first, second] = ["1e4", "5e4"].map(number);
+    let table: [(Change, Option<(&str, bool)>); 5] = [
+        (|s, _, _| by_rule(s, number("7")), Some(("N/m", true))),
+        (|s, _, _| by_rule(s, number("7") * &s.c), Some(("c", true))),
+        (
+            |s, _, _| by_penalty(s, number(if s.m < number("1") { "1e4" } else { "5e4" })),
+            Some(("N/m", false)),
+        ),
+        (|s, _, _| by_rule(s, number("7")).map(|x| x * number("1.01")), None),
+        (
+            |s, u, n| [u - number(if s.m < number("1") { "0.1" } else { "0.2" }) * system::gap(s).abs(), n],
+            None,
+        ),
+    ];
+    for (place, (change, expected)) in table.into_iter().enumerate() {
+        let report = changed(|problem, u, n| change(&problem.system, u, n));
+        let found = report.apparent_penalty.as_ref();
+        assert_eq!(found.map(|found| (found.unit, found.is_by_tens)), expected, "{place}");
+        if place == 0 {
+            let ApparentPenalty { of, range, penetration, .. } = found.unwrap();
+            // Rounding could hide some of kilometres.
+            assert!(*of > 50 && *of < report.summary().wrong, "{of}");
+            assert!(range[0] == number("7") && range[1] > number("7e9"), "{range:?}");
+            assert!(penetration.as_ref().unwrap() < &number("0.01"));
+        } else if place == 2 {
+            assert_eq!(found.unwrap().range, [&first, &second].map(Exact::clone));
+        }
+    }
+    let all = problems(1, 2, &[Family::Contact]);
+    assert_eq!(changed_in(&all, |of, _, _| by_rule(&of.system, number("7"))).apparent_penalty, None);
+}
+
 /// Answers of a table have no order: the same ones show neither that they are carried over, nor a border of requests.
 #[test]
 fn a_table_has_no_order() {
