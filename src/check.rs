@@ -21,6 +21,7 @@ mod assessment;
 mod condition;
 mod diagnosis;
 mod explanation;
+mod iteration;
 mod law;
 mod observation;
 mod output;

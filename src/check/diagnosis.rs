@@ -1,6 +1,7 @@
 //! Diagnosis: the one edit, the one number or the one rounding that explains the answers of a solver.
 
 use super::explanation::{Diagnosis, DiagnosisScope, Explanation};
+use super::iteration::common_error;
 use super::law::smoothed_law;
 use super::observation::{Agreement, INFORMATIVE, Observation};
 use super::output::{few_digits, sums_or_factors};
@@ -13,6 +14,7 @@ use crate::claims::registry;
 use crate::formula::Notation;
 use crate::number::{Exact, PositivePart, ToExact};
 use num_traits::{One, Zero};
+use rug::float::Round;
 use std::sync::LazyLock;
 
 /// Default number of systems in each family: sufficient to distinguish most mistakes.
@@ -52,14 +54,16 @@ impl<'a> Search<'a> {
     /// Returns all explanations of one kind, the first one of which explains all answers.
     pub fn of_all(&self, answers: &[&Observation]) -> Vec<Explanation> {
         if !self.is_informative(answers) {
-            return self.roundings(answers);
+            let found = self.roundings(answers);
+            return if found.is_empty() { self.stopped_early(answers) } else { found };
         }
-        let searches: [Find; 5] = [
+        let searches: [Find; 6] = [
             |search, answers| search.programs(&EDITS, answers),
             |search, answers| search.roundings(answers),
             |search, answers| sums_or_factors(answers, &search.fit).into_iter().collect(),
             |search, answers| search.programs(&NUMBERS, answers),
             |search, answers| smoothed_law(answers, &search.fit).into_iter().collect(),
+            |search, answers| search.stopped_early(answers),
         ];
         let found = searches.into_iter().map(|search| search(self, answers));
         found.into_iter().find(|found| !found.is_empty()).unwrap_or_default()
@@ -154,6 +158,33 @@ impl<'a> Search<'a> {
             }),
             ..Explanation::new(name, program)
         }
+    }
+
+    /// Returns the right program, or the wrong ones, that give all answers up to an error that is similar in most.
+    fn stopped_early(&self, answers: &[&Observation]) -> Vec<Explanation> {
+        if answers.iter().filter(|answer| answer.is_wrong()).count() < INFORMATIVE {
+            return Vec::new();
+        }
+        let explanation = |name: &str, program: Vec<String>, error: Exact| {
+            let error = error.decimal(2, Round::Up);
+            let name = format!("{name} up to {error}, as an iteration that stops early leaves");
+            Explanation::new(name, program)
+        };
+        let right = self.reference.program();
+        if let Some(error) = common_error(&right, true, answers) {
+            return vec![explanation("the formulas are right", Vec::new(), error)];
+        }
+        let mut found = Vec::new();
+        let mut known = Vec::new();
+        for mistake in EDITS[self.reference as usize].iter() {
+            let Some(error) = common_error(&mistake.program, false, answers) else { continue };
+            let results = results(mistake, None);
+            if !known.contains(&results) {
+                known.push(results);
+                found.push(explanation(&mistake.name, mistake.program.lines(), error));
+            }
+        }
+        found
     }
 
     /// Returns the loss of digits that explains all answers.

@@ -23,9 +23,9 @@ pub struct ApparentPenalty {
 
 impl ApparentPenalty {
     /// Returns the penalty of the answers if all penetrate the plane in equilibrium, as far as rounding shows it.
-    pub(super) fn of(wrong: &[&Observation], fit: &Exact) -> Option<Self> {
+    pub(super) fn of(wrong: &[&Observation]) -> Option<Self> {
         let shown: Vec<_> = wrong.iter().filter(|answer| is_shown(answer)).collect();
-        let all = shown.iter().map(|answer| penalty(answer, fit)).collect::<Option<Vec<_>>>()?;
+        let all = shown.iter().map(|answer| penalty(answer)).collect::<Option<Vec<_>>>()?;
         let by_c = shown.iter().zip(&all).map(|(answer, eps)| eps / &answer.problem.system.c).collect();
         let parts = shown.iter().map(|answer| {
             let gap = system::gap(&answer.problem.system).abs();
@@ -47,18 +47,28 @@ fn penetration(answer: &Observation) -> Option<Exact> {
     Some(contact::penetration(&answer.problem.system, answer.numbers()[0].as_ref()?))
 }
 
-/// Returns `true` unless p may consist of the rounding errors of lengths, of which a ten-thousandth would not matter.
-fn is_shown(answer: &Observation) -> bool {
-    let rounding = &answer.sizes[0] * Exact::power_of_two(-52);
-    penetration(answer).is_none_or(|p| p.abs() > rounding * Exact::from(10_000))
+/// Returns the rounding error of p.
+fn rounding(answer: &Observation) -> Exact {
+    &answer.sizes[0] * Exact::power_of_two(-52)
 }
 
-/// Returns N/p of an answer in equilibrium.
-fn penalty(answer: &Observation, fit: &Exact) -> Option<Exact> {
+/// Returns `true` unless p may consist of rounding errors, of which a ten-thousandth would not matter.
+fn is_shown(answer: &Observation) -> bool {
+    penetration(answer).is_none_or(|p| p.abs() > rounding(answer) * Exact::from(10_000))
+}
+
+/// Returns N/p of an answer in equilibrium, whose error is small relative to c p, and thus to the error of N, or due to
+/// rounding.
+fn penalty(answer: &Observation) -> Option<Exact> {
     let (p, [Some(u), Some(n)]) = (penetration(answer)?, answer.numbers()) else { return None };
-    let off = contact::equilibrium(&answer.problem.system, u, n).abs();
-    let most = fit * &answer.scales[1] + decimal(1, -3) * n.abs();
-    (p > Exact::zero() && *n > Exact::zero() && off <= most).then(|| n / p)
+    let system = &answer.problem.system;
+    if p <= Exact::zero() || *n <= Exact::zero() {
+        return None;
+    }
+    let penalty = n / &p;
+    let rounded = &penalty * rounding(answer) + &answer.sizes[1] * Exact::power_of_two(-50);
+    let most = decimal(1, -2) * &system.c * &p + Exact::from(4) * rounded;
+    (contact::equilibrium(system, u, n).abs() <= most).then_some(penalty)
 }
 
 /// Returns `true` for a power of ten up to a thousandth, which answers of few digits allow.

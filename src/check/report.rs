@@ -10,7 +10,7 @@ use super::output::absolute_bounds;
 use super::penalty::ApparentPenalty;
 use super::problems::Family;
 use super::program::Reference;
-use super::scales::{fit, scales};
+use super::scales::scales;
 use crate::chapter::system;
 use crate::number::{Exact, PositivePart};
 use crate::solver::State;
@@ -128,7 +128,7 @@ impl Report {
             self.carried_over = carried_over(&answers);
             if self.carried_over.is_empty() {
                 self.absolute_bounds = absolute_bounds(&wrong, tolerance);
-                self.apparent_penalty = ApparentPenalty::of(&wrong, &fit(tolerance));
+                self.apparent_penalty = ApparentPenalty::of(&wrong);
             } else {
                 self.conditions.clear();
             }

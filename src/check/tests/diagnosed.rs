@@ -369,6 +369,54 @@ fn unexplained_answers_have_an_apparent_penalty() {
     assert_eq!(changed_in(&all, |of, _, _| by_rule(&of.system, number("7"))).apparent_penalty, None);
 }
 
+/// Returns u(1 − error), and N in equilibrium, as a damped Newton method leaves them that starts from 0.
+fn damped([u, n]: [Exact; 2], s: &SpringMass<Exact>, error: &str) -> [Exact; 2] {
+    let u = u * (Exact::from(1) - number(error));
+    if n.is_zero() { [u, n] } else { [u.clone(), system::weight(s) - structure::spring_force(s, &u)] }
+}
+
+/// The error is similar in most answers, in both states, and in N: not if only a penalty or a parameter has it, or the
+/// output has few digits.
+#[test]
+fn iterations_that_stop_early_are_named() {
+    type Change = fn(&Problem, [Exact; 2]) -> [Exact; 2];
+    let table: [(&str, &str, Change); 10] = [
+        ("1e-9", "the formulas are right up to ", |of, exact| damped(exact, &of.system, "1/300000000")),
+        ("1e-6", "the formulas are right up to ", |of, exact| damped(exact, &of.system, "1/300000")),
+        ("1e-6", "the plane always acts up to ", |of, _| damped(held(&of.system), &of.system, "1/300000")),
+        ("1e-9", "", |of, _| by_penalty(&of.system, number("1e8") * &of.system.c)),
+        ("1e-9", "", |_, [u, n]| [u, n * number("1.00000001")]),
+        ("1e-9", "", |_, [u, n]| [u * number("1.00000001"), n]),
+        (
+            "1e-9",
+            "",
+            |of, [u, n]| if n.is_zero() { damped([u, n], &of.system, "1/300000000") } else { [u, n] },
+        ),
+        ("1e-12", "", |_, exact| exact.map(|x| rounded(&x, 10))),
+        ("1e-6", "", |of, exact| damped(exact, &of.system, "0.01")),
+        ("1e-9", "", |of, exact| {
+            let is_small = of.id.ends_with(['1', '4', '7', '0']);
+            damped(exact, &of.system, if is_small { "1/300000000000" } else { "1/300000000" })
+        }),
+    ];
+    for (place, (tolerance, name, change)) in table.into_iter().enumerate() {
+        let report = run_within(tolerance, &default_problems(), |problem| {
+            let [u, n] = change(problem, solution(problem.system.clone(), None));
+            Answer::new(u, n)
+        });
+        let found = names(&report);
+        let is_named = found.len() == 1 && found[0].ends_with(", as an iteration that stops early leaves");
+        assert_eq!((is_named, found.is_empty()), (!name.is_empty(), name.is_empty()), "{place}: {found:?}");
+        if is_named {
+            let (_, error) = found[0].split_once(name).unwrap();
+            let error = number(error.split(',').next().unwrap());
+            // |u| is at most its scale, and half of it where m g/c = H − l; the error is rounded up to two digits.
+            let most = number(if tolerance == "1e-9" { "3.4e-9" } else { "3.4e-6" });
+            assert!(error <= most && error >= most / number("2"), "{place}: {error}");
+        }
+    }
+}
+
 /// Answers of a table have no order: the same ones show neither that they are carried over, nor a border of requests.
 #[test]
 fn a_table_has_no_order() {
