@@ -19,6 +19,7 @@
 mod answer;
 mod assessment;
 mod condition;
+mod convention;
 mod diagnosis;
 mod explanation;
 mod iteration;

@@ -1,5 +1,6 @@
 //! Diagnosis: the one edit, the one number or the one rounding that explains the answers of a solver.
 
+use super::convention::Convention;
 use super::explanation::{Diagnosis, DiagnosisScope, Explanation};
 use super::iteration::common_error;
 use super::law::smoothed_law;
@@ -57,13 +58,14 @@ impl<'a> Search<'a> {
             let found = self.roundings(answers);
             return if found.is_empty() { self.stopped_early(answers) } else { found };
         }
-        let searches: [Find; 6] = [
+        let searches: [Find; 7] = [
             |search, answers| search.programs(&EDITS, answers),
             |search, answers| search.roundings(answers),
             |search, answers| sums_or_factors(answers, &search.fit).into_iter().collect(),
             |search, answers| search.programs(&NUMBERS, answers),
             |search, answers| smoothed_law(answers, &search.fit).into_iter().collect(),
             |search, answers| search.stopped_early(answers),
+            |search, answers| search.behind_conventions(answers),
         ];
         let found = searches.into_iter().map(|search| search(self, answers));
         found.into_iter().find(|found| !found.is_empty()).unwrap_or_default()
@@ -160,31 +162,51 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the right program, or the wrong ones, that give all answers up to an error that is similar in most.
-    fn stopped_early(&self, answers: &[&Observation]) -> Vec<Explanation> {
-        if answers.iter().filter(|answer| answer.is_wrong()).count() < INFORMATIVE {
-            return Vec::new();
-        }
-        let explanation = |name: &str, program: Vec<String>, error: Exact| {
-            let error = error.decimal(2, Round::Up);
-            let name = format!("{name} up to {error}, as an iteration that stops early leaves");
-            Explanation::new(name, program)
-        };
-        let right = self.reference.program();
-        if let Some(error) = common_error(&right, true, answers) {
-            return vec![explanation("the formulas are right", Vec::new(), error)];
-        }
-        let mut found = Vec::new();
-        let mut known = Vec::new();
-        for mistake in EDITS[self.reference as usize].iter() {
-            let Some(error) = common_error(&mistake.program, false, answers) else { continue };
-            let results = results(mistake, None);
-            if !known.contains(&results) {
-                known.push(results);
-                found.push(explanation(&mistake.name, mistake.program.lines(), error));
+    /// Returns the mistakes behind the most usual conventions that explain all answers with them.
+    fn behind_conventions(&self, answers: &[&Observation]) -> Vec<Explanation> {
+        let (mut found, mut most) = (Vec::new(), usize::MAX);
+        for convention in Convention::candidates(answers, &self.fit) {
+            if convention.rank() > most {
+                break;
+            }
+            let results: Vec<_> =
+                answers.iter().map(|answer| convention.undo(answer, self.tolerance)).collect();
+            let undone = results.iter().filter_map(|result| Observation::of(0, result, self.tolerance));
+            let undone: Vec<_> = undone.collect();
+            let all: Vec<_> = undone.iter().collect();
+            let searches = [&EDITS, &NUMBERS].into_iter().filter(|_| self.is_informative(&all));
+            let behind =
+                searches.map(|candidates| self.programs(candidates, &all)).find(|all| !all.is_empty());
+            for behind in behind.into_iter().flatten() {
+                let name = format!("with the convention that {}, {}", convention.description(), behind.name);
+                found.push(Explanation {
+                    equivalent: behind.equivalent,
+                    ..Explanation::new(name, behind.program)
+                });
+                most = convention.rank();
             }
         }
         found
+    }
+
+    /// Returns the right program, or the wrong ones, that give all answers up to an error that is similar in most.
+    fn stopped_early(&self, answers: &[&Observation]) -> Vec<Explanation> {
+        let right = &Mistake::new("the formulas are right", self.reference.program());
+        let mut found: Vec<(Vec<[Option<Exact>; 2]>, Explanation)> = Vec::new();
+        let is_wrong = answers.iter().filter(|answer| answer.is_wrong()).count() >= INFORMATIVE;
+        for mistake in std::iter::once(right).chain(&*EDITS[self.reference as usize]).filter(|_| is_wrong) {
+            let is_right = std::ptr::eq(mistake, right);
+            let Some(error) = common_error(&mistake.program, is_right, answers) else { continue };
+            let (results, error) = (results(mistake, None), error.decimal(2, Round::Up));
+            let name = format!("{} up to {error}, as an iteration that stops early leaves", mistake.name);
+            if is_right {
+                return vec![Explanation::new(name, Vec::new())];
+            }
+            if found.iter().all(|(known, _)| *known != results) {
+                found.push((results, Explanation::new(name, mistake.program.lines())));
+            }
+        }
+        found.into_iter().map(|(_, found)| found).collect()
     }
 
     /// Returns the loss of digits that explains all answers.

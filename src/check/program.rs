@@ -92,7 +92,7 @@ pub(super) enum Kind {
 }
 
 impl Mistake {
-    fn new(name: impl Into<String>, program: Program) -> Self {
+    pub fn new(name: impl Into<String>, program: Program) -> Self {
         Mistake { name: name.into(), program, kind: Kind::Formula }
     }
 

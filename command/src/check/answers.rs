@@ -5,7 +5,6 @@ use crate::args::invalid;
 use crate::output::{Failure, shortened};
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::check::{Problem, Reply};
-use spring_mass_contact::number::Exact;
 use std::collections::{HashMap, HashSet};
 use std::fs::File;
 use std::io::{self, Read};
@@ -20,6 +19,7 @@ const REQUIRED: [&str; 3] = ["id", "deflection", "contact_force"];
 const CSV: &str = "commas separate columns, and numbers have a decimal point";
 
 /// Answers with their problems, and the systems without an answer.
+#[derive(Default)]
 pub struct Table {
     pub answers: Vec<(Problem, Reply)>,
     pub missing: Vec<Problem>,
@@ -32,16 +32,32 @@ pub fn read(path: &str, drawn: Vec<Problem>) -> Result<Table, Failure> {
 }
 
 fn table(text: &str, drawn: Vec<Problem>) -> Result<Table, String> {
-    let lines = if text.trim_start().starts_with('{') { json_lines(text) } else { csv_lines(text)? };
+    let is_json = text.trim_start().starts_with('{');
+    let lines = if is_json { text.lines().map(str::to_string).collect() } else { csv_lines(text)? };
     let known: HashMap<&str, &Problem> = drawn.iter().map(|problem| (&*problem.id, problem)).collect();
-    let penalty = drawn.first().and_then(|problem| problem.penalty.as_ref());
-    let (mut table, mut ids) = (Table { answers: Vec::new(), missing: Vec::new() }, HashSet::new());
-    for (number, line) in lines {
+    let penalty = drawn.first().and_then(|problem| problem.penalty.clone());
+    let (mut table, mut ids) = (Table::default(), HashSet::new());
+    for (number, line) in (1..).zip(lines).filter(|(_, line)| !line.trim().is_empty()) {
         let at_line = |reason: String| format!("line {number}: {reason}");
         let Row { id, system, reply } = reply::row(&line).map_err(at_line)?;
-        let problem = problem(&id, system, known.get(&*id).copied(), penalty).map_err(at_line)?;
+        let (shown, known) = (shortened(&words(&id)), known.get(&*id));
+        let problem = match (system, known) {
+            (Some(system), _) => {
+                let own = Problem::own(&shown, system, penalty.clone());
+                let own = own.map_err(|error| at_line(error.to_string()))?;
+                Problem { family: known.map_or(own.family, |known| known.family), ..own }
+            }
+            (None, Some(known)) => (*known).clone(),
+            (None, None) => {
+                return Err(at_line(format!(
+                    "'{shown}' is not an id of contact cases with these --cases, --seed and --family, and the row \
+                     does not have {}",
+                    SpringMass::KEYS.into_array().join(", ")
+                )));
+            }
+        };
         if !ids.insert(id) {
-            return Err(at_line(format!("the id '{}' is used multiple times", problem.id)));
+            return Err(at_line(format!("the id '{shown}' is used multiple times")));
         }
         match reply {
             Some(reply) => table.answers.push((problem, reply)),
@@ -58,27 +74,6 @@ fn table(text: &str, drawn: Vec<Problem>) -> Result<Table, String> {
     Ok(table)
 }
 
-/// Returns the problem of a row: with its own parameters, or the drawn one with its id.
-fn problem(
-    id: &str,
-    system: Option<SpringMass<Exact>>,
-    known: Option<&Problem>,
-    penalty: Option<&Exact>,
-) -> Result<Problem, String> {
-    let id = shortened(&words(id));
-    let Some(system) = system else {
-        return known.cloned().ok_or_else(|| {
-            format!(
-                "'{id}' is not an id of contact cases with these --cases, --seed and --family, and the row does not \
-                 have {}",
-                SpringMass::KEYS.into_array().join(", ")
-            )
-        });
-    };
-    let own = Problem::own(&id, system, penalty.cloned()).map_err(|error| error.to_string())?;
-    Ok(Problem { family: known.map_or(own.family, |known| known.family), ..own })
-}
-
 fn text(path: &str) -> Result<String, String> {
     let (mut bytes, limit) = (Vec::new(), MAX_BYTES + 1);
     let count = match path {
@@ -93,39 +88,25 @@ fn text(path: &str) -> Result<String, String> {
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// Returns lines that are not blank, with their numbers.
-fn json_lines(text: &str) -> Vec<(u64, String)> {
-    let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
-    lines.map(|(number, line)| (number, line.to_string())).collect()
-}
-
 /// Returns the rows of CSV as lines of JSON with those columns that are read, without empty cells.
-fn csv_lines(text: &str) -> Result<Vec<(u64, String)>, String> {
+fn csv_lines(text: &str) -> Result<Vec<String>, String> {
+    let refused = |error: csv::Error| format!("{error}; {CSV}");
     let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
-    let names = csv.headers().map_err(|error| error.to_string())?.clone();
+    let names = csv.headers().map_err(refused)?.clone();
     if !REQUIRED.iter().all(|required| names.iter().any(|name| name == *required)) {
         let first = shortened(text.lines().next().unwrap_or_default());
         return Err(format!("the first line '{first}' must name the columns {}; {CSV}", REQUIRED.join(", ")));
     }
-    let parameters = SpringMass::KEYS.into_array();
-    let is_read =
-        |name: &str| name == "penetration" || REQUIRED.contains(&name) || parameters.contains(&name);
+    let read = [&REQUIRED[..], &SpringMass::KEYS.into_array(), &["penetration"]].concat();
     let mut lines = Vec::new();
     for row in csv.records() {
-        let row = row.map_err(|error| match error.kind() {
-            csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
-                let line = pos.as_ref().map_or(0, csv::Position::line);
-                format!("line {line}: has {len} columns instead of {expected_len}; {CSV}")
-            }
-            _ => error.to_string(),
-        })?;
-        let cells = names.iter().zip(&row).filter(|(name, cell)| is_read(name) && !cell.is_empty());
+        let row = row.map_err(refused)?;
+        let cells = names.iter().zip(&row).filter(|(name, cell)| read.contains(name) && !cell.is_empty());
         let cells = cells.map(|(name, cell)| format!("\"{name}\":{}", serde_json::Value::from(cell)));
-        let cells = Vec::from_iter(cells);
-        if !cells.is_empty() {
-            let number = row.position().map_or(0, csv::Position::line);
-            lines.push((number, format!("{{{}}}", cells.join(","))));
-        }
+        let cells = cells.collect::<Vec<_>>().join(",");
+        // The lines of quoted line breaks and blank lines are counted, too.
+        lines.resize(row.position().map_or(lines.len(), |at| at.line() as usize - 1), String::new());
+        lines.push(if cells.is_empty() { cells } else { format!("{{{cells}}}") });
     }
     Ok(lines)
 }

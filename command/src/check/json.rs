@@ -8,7 +8,7 @@ use crate::output::record;
 use serde::Serialize;
 use serde_json::value::RawValue;
 use spring_mass_contact::check::{
-    AnswerVerdict, ApparentPenalty, CaseResult, FailureCondition, FamilyResult, Reply, Report, Threshold,
+    AnswerVerdict, CaseResult, FailureCondition, FamilyResult, Reply, Report, Threshold,
 };
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
@@ -34,7 +34,7 @@ pub fn report(of: &Subject, options: &Options, report: &Report) -> impl Serializ
         carried_over: report.carried_over.iter().map(|pair| pair.map(|i| id(report, i))).collect::<Vec<_>>(),
         conditions: report.conditions.iter().map(condition).collect::<Vec<_>>(),
         absolute_bounds: report.absolute_bounds.each_ref().map(error),
-        apparent_penalty: report.apparent_penalty.as_ref().map(apparent_penalty),
+        apparent_penalty: &report.apparent_penalty,
         diagnosis: &report.diagnosis,
     }
 }
@@ -67,17 +67,6 @@ fn threshold(threshold: &Threshold) -> impl Serialize + use<> {
         quantity: threshold.quantity,
         wrong: threshold.wrong.decimal(DIGITS, wrong),
         right: threshold.right.decimal(DIGITS, right),
-    }
-}
-
-fn apparent_penalty(penalty: &ApparentPenalty) -> impl Serialize + use<> {
-    let [least, most] = &penalty.range;
-    record! {
-        of: penalty.of,
-        unit: penalty.unit,
-        range: [least.decimal(DIGITS, Round::Down), most.decimal(DIGITS, Round::Up)],
-        is_by_tens: penalty.is_by_tens,
-        penetration: error(&penalty.penetration),
     }
 }
 

@@ -62,12 +62,11 @@ pub fn row(line: &str) -> Result<Row, String> {
         let id = object_id(object)?.ok_or("the key 'id' is missing")?.into_owned();
         let mut digits = MAX_ANSWER_DIGITS;
         let system = SpringMass::KEYS.try_map(|key| optional(object, "", key, &mut digits))?;
-        let is_own = system.as_ref().into_array().iter().any(|parameter| parameter.is_some());
-        let parameter = |(key, x): &(&str, Option<ReportedNumber>)| match x {
-            Some(Some(x)) => Ok(x.clone()),
-            Some(None) => Err(format!("the number for '{key}' is not finite")),
-            None => Err(format!("the key '{key}' is missing; a row has all five parameters or none")),
+        let parameter = |(key, x): &(&str, Option<ReportedNumber>)| {
+            let must = "must be a number; a row has all five parameters or none";
+            x.clone().flatten().ok_or_else(|| format!("the key '{key}' {must}"))
         };
+        let is_own = system.as_ref().into_array().iter().any(|parameter| parameter.is_some());
         let system = is_own.then(|| SpringMass::KEYS.zip(system).try_map(parameter)).transpose()?;
         let keys = ["deflection", "contact_force", "error"].map(|key| non_null(object, "", key));
         let is_filled = keys.into_iter().collect::<Result<Vec<_>, _>>()?.iter().any(Option::is_some);

@@ -239,24 +239,15 @@ fn unexplained(report: &Report) -> Option<String> {
 
 /// Describes wrong answers that have a penalty each.
 fn penetrating(report: &Report) -> Option<String> {
-    let ApparentPenalty { of, unit, range, is_by_tens, penetration } = report.apparent_penalty.as_ref()?;
-    let wrong = report.summary().wrong;
-    let which = if *of == wrong {
-        format!("The {wrong} wrong answers are all")
-    } else {
-        format!("{of} of {wrong} wrong answers, all where rounding does not hide p = l + u − H, are")
-    };
+    let ApparentPenalty { unit, range, is_by_tens, penetration } = report.apparent_penalty.as_ref()?;
     let [least, most] = range.each_ref().map(|eps| eps.decimal(ERROR_DIGITS + 1, Round::Nearest));
     let [least, most] = [least, most].map(|eps| unbroken(&format!("{eps} {unit}")));
-    let part = penetration.as_ref().map(|p| unbroken(&format!("{} |H − l|", upper_bound(p))));
-    let part = part.map_or(String::new(), |part| format!("; p is at most {part}"));
-    let rule = if *is_by_tens {
-        " It differs by powers of ten, as if a rule multiplied it by ten until p is small."
-    } else {
-        ""
-    };
+    let most_p = unbroken(&format!("{} |H − l|", upper_bound(penetration)));
+    let rule = " It differs by powers of ten, as if a rule multiplied it by ten until p is small.";
+    let rule = if *is_by_tens { rule } else { "" };
     Some(format!(
-        "{which} in equilibrium with p > 0, as by a penalty N/p from {least} to {most}{part}.{rule}"
+        "Where rounding does not hide p = l + u − H, the wrong answers are in equilibrium with p > 0, as by a \
+         penalty N/p from {least} to {most}; p is at most {most_p}.{rule}"
     ))
 }
 

