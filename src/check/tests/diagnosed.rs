@@ -398,7 +398,7 @@ fn iterations_that_stop_early_are_named() {
         }),
     ];
     for (place, (tolerance, name, change)) in table.into_iter().enumerate() {
-        let report = run_within(tolerance, &problems(1, 2, Family::ALL), |problem| {
+        let report = run_within(tolerance, &problems(1, 3, Family::ALL), |problem| {
             let [u, n] = change(problem, solution(problem.system.clone(), None));
             Answer::new(u, n)
         });
@@ -444,7 +444,7 @@ fn a_mistake_behind_a_convention_is_named() {
         }),
     ];
     for (convention, mistake, change) in table {
-        let report = changed_in(&problems(1, 2, Family::ALL), |problem, u, n| change(&problem.system, u, n));
+        let report = changed_in(&problems(1, 3, Family::ALL), |problem, u, n| change(&problem.system, u, n));
         assert_eq!(names(&report), [format!("with the convention that {convention}, {mistake}")]);
     }
     // Three forces show their sign, two do not.

@@ -19,7 +19,7 @@ fn what_is_not_read_is_named() {
         ),
         (
             "id,deflection,contact_force\ncontact-1,0,5,3",
-            "CSV error: record 1 (line: 2, byte: 29): found record with 4 fields",
+            "CSV error: record 1 (line: 2, byte: 28): found record with 4 fields",
         ),
         (
             "id,deflection,contact_force\ncontact-1,\"0,5\",3",
