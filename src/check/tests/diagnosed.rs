@@ -390,7 +390,7 @@ fn iterations_that_stop_early_are_named() {
         ("1e-6", "the plane always acts up to ", |of, _| damped(held(&of.system), &of.system, "1/300000")),
         ("1e-9", "", |of, _| by_penalty(&of.system, number("1e8") * &of.system.c)),
         ("1e-9", "", |_, [u, n]| [u, n * number("1.00000001")]),
-        ("1e-9", "", |_, [u, n]| [u * number("1.00000000123456789"), n]),
+        ("1e-9", "", |_, [u, n]| [u * number("1.0000000123456789"), n]),
         (
             "1e-9",
             "",
