@@ -5,7 +5,6 @@ use crate::output::{self, Exit, Failure, formats, record};
 use serde::Serialize;
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::check::{self, Family, Problem, problems};
-use spring_mass_contact::solver::Solution;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -71,9 +70,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 /// Returns a system with its exact solution, which may be left empty.
 fn case(problem: Problem, is_blank: bool) -> impl Serialize {
     let SpringMass { c, m, g, l, h } = problem.system.as_ref().map(format_exact);
-    let Solution { deflection, penetration, contact_force, .. } = problem.solution();
-    let [deflection, penetration, contact_force] =
-        [deflection, penetration, contact_force].map(|x| Some(x).filter(|_| !is_blank));
+    let exact = problem.solution();
+    let cell = |x| (!is_blank).then_some(x);
     record! {
         id: problem.id,
         family: problem.family,
@@ -82,8 +80,8 @@ fn case(problem: Problem, is_blank: bool) -> impl Serialize {
         gravity: g,
         free_length: l,
         height: h,
-        deflection: deflection,
-        penetration: penetration,
-        contact_force: contact_force,
+        deflection: cell(exact.deflection),
+        penetration: cell(exact.penetration),
+        contact_force: cell(exact.contact_force),
     }
 }

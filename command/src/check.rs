@@ -101,10 +101,11 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
             let report = check_table(answers, &options.tolerance.value);
             (Subject { kind: "answers", name: reply::words(path), missing }, report)
         }
-        None => (
-            Subject { kind: "program", name: words(options)?, missing: Vec::new() },
-            ask(options, &problems)?,
-        ),
+        None => {
+            let program = shlex::try_join(options.program.iter().map(String::as_str));
+            let name = reply::words(&program.map_err(|error| format!("the program's words: {error}"))?);
+            (Subject { kind: "program", name, missing: Vec::new() }, ask(options, &problems)?)
+        }
     };
     output::print(|out| match options.format {
         Format::Table => report::table(out, &subject, &report, &options.tolerance),
@@ -112,12 +113,6 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         Format::Markdown => report::markdown(out, &report),
     })?;
     Ok(Exit::from_result(report.holds()))
-}
-
-/// Returns the program with its arguments.
-fn words(options: &Options) -> Result<String, Failure> {
-    let program = shlex::try_join(options.program.iter().map(String::as_str));
-    Ok(reply::words(&program.map_err(|error| format!("the program's words: {error}"))?))
 }
 
 /// Passes the problems to the program.

@@ -2,13 +2,11 @@
 
 use super::answer::Reply;
 use super::assessment::CaseResult;
+use super::diagnosis::SAMPLES;
 use super::observation::{INFORMATIVE, Observation};
 use super::scales::{decimal, format_short};
 use crate::number::{Exact, PositivePart};
-use num_traits::Zero;
-
-/// Number of answers from which a common value is taken.
-const SAMPLES: usize = 40;
+use num_traits::{One, Zero};
 
 /// What is returned for u or N: a multiple of it, or a sum with it.
 #[derive(Clone)]
@@ -31,9 +29,9 @@ impl Returned {
         });
         let numbers: Vec<_> = numbers.collect();
         let sum = common(numbers.iter().map(|(number, exact, _)| number - exact).collect(), fit);
-        let [one, large, small] = [0, 3, -3].map(|power| decimal(1, power));
-        let factors = [one.clone(), -&one, large.clone(), small.clone(), -large, -small].into_iter();
-        let factors = factors.map(|factor| (factor, Exact::zero())).chain(sum.map(|sum| (one, sum)));
+        let factors = [(1, 0), (-1, 0), (1, 3), (1, -3), (-1, 3), (-1, -3)].into_iter();
+        let factors = factors.map(|(sign, power)| (decimal(sign, power), Exact::zero()));
+        let factors = factors.chain(sum.map(|sum| (Exact::one(), sum)));
         let mut all: Vec<_> =
             (0..).zip(factors).map(|(rank, (factor, sum))| Returned { factor, sum, rank }).collect();
         all.retain(|returned| {
@@ -76,13 +74,10 @@ impl Convention {
     pub fn candidates(answers: &[&Observation], fit: &Exact) -> Vec<Self> {
         let [u, n] = [0, 1].map(|i| Returned::candidates(i, answers, fit));
         let pairs = u.iter().flat_map(|u| n.iter().map(|n| Convention([u.clone(), n.clone()])));
-        let mut all = Vec::from_iter(pairs.filter(|pair| pair.rank() > 0));
-        all.sort_by_key(Convention::rank);
+        let rank = |pair: &Convention| pair.0[0].rank + pair.0[1].rank;
+        let mut all = Vec::from_iter(pairs.filter(|pair| rank(pair) > 0));
+        all.sort_by_key(rank);
         all
-    }
-
-    pub fn rank(&self) -> usize {
-        self.0[0].rank + self.0[1].rank
     }
 
     /// Returns an answer without the convention.

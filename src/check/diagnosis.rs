@@ -22,7 +22,7 @@ use std::sync::LazyLock;
 pub const CASES: u64 = 5;
 
 /// Number of wrong answers, of all families, from which an unknown number is computed.
-const SAMPLES: usize = 40;
+pub(super) const SAMPLES: usize = 40;
 
 /// A search for explanations of wrong answers.
 pub(super) struct Search<'a> {
@@ -141,8 +141,7 @@ impl<'a> Search<'a> {
         let explains = |k: &Exact| self.explains_all(mistake, Some(k), answers);
         let k = numbers.find(explains)?;
         // Answers of few digits determine it roughly, and it is probably a round number.
-        let shortest = (1..=3).map(|digits| short(&k, digits)).find(explains);
-        Some(Some(shortest.unwrap_or(k)))
+        Some((1..=3).map(|digits| short(&k, digits)).find(explains).or(Some(k)))
     }
 
     fn explanation(&self, mistake: &'static Mistake, k: Option<Exact>) -> Explanation {
@@ -162,29 +161,26 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the mistakes behind the most usual conventions that explain all answers with them.
+    /// Returns the mistakes behind the most usual convention that explain all answers with it.
     fn behind_conventions(&self, answers: &[&Observation]) -> Vec<Explanation> {
-        let (mut found, mut most) = (Vec::new(), usize::MAX);
-        for convention in Convention::candidates(answers, &self.fit) {
-            if convention.rank() > most {
-                break;
-            }
-            let results: Vec<_> =
-                answers.iter().map(|answer| convention.undo(answer, self.tolerance)).collect();
-            let undone = results.iter().filter_map(|result| Observation::of(0, result, self.tolerance));
-            let undone: Vec<_> = undone.collect();
-            let all: Vec<_> = undone.iter().collect();
-            let searches = [&EDITS, &NUMBERS].into_iter().filter(|_| self.is_informative(&all));
-            let behind =
-                searches.map(|candidates| self.programs(candidates, &all)).find(|all| !all.is_empty());
-            for behind in behind.into_iter().flatten() {
-                let name = format!("with the convention that {}, {}", convention.description(), behind.name);
-                found.push(Explanation {
-                    equivalent: behind.equivalent,
-                    ..Explanation::new(name, behind.program)
-                });
-                most = convention.rank();
-            }
+        let conventions = Convention::candidates(answers, &self.fit);
+        let mut found = conventions.iter().map(|convention| self.behind(convention, answers));
+        found.find(|found| !found.is_empty()).unwrap_or_default()
+    }
+
+    fn behind(&self, convention: &Convention, answers: &[&Observation]) -> Vec<Explanation> {
+        let results: Vec<_> = answers.iter().map(|answer| convention.undo(answer, self.tolerance)).collect();
+        let undone = results.iter().filter_map(|result| Observation::of(0, result, self.tolerance));
+        let undone: Vec<_> = undone.collect();
+        let undone: Vec<_> = undone.iter().collect();
+        let searches = [&EDITS, &NUMBERS].into_iter().filter(|_| self.is_informative(&undone));
+        let mut found = searches.map(|candidates| self.programs(candidates, &undone));
+        let mut found = found.find(|found| !found.is_empty()).unwrap_or_default();
+        for explanation in &mut found {
+            explanation.name =
+                format!("with the convention that {}, {}", convention.description(), explanation.name);
+            // It describes the answers without the convention.
+            explanation.may_give = Box::new(|_| false);
         }
         found
     }

@@ -13,9 +13,12 @@ const CLEAR: i32 = 100;
 /// Largest number of digits that may be those of a table, so that they would explain an error.
 const PRINTED_DIGITS: usize = 12;
 
+/// Values of a program for an answer, with the errors of the answer beyond rounding.
+type Deviation = [(Exact, Exact); 2];
+
 /// Returns u and N of a program with the errors of an answer beyond rounding, relative to the larger of these and its
 /// scales; in the closer state if both are possible.
-fn errors(answer: &Observation, program: &Program) -> Option<[(Exact, Exact); 2]> {
+fn deviation(answer: &Observation, program: &Program) -> Option<Deviation> {
     let penalty = answer.reported_penalty();
     let known = Known::new(&answer.problem.system, penalty.as_ref(), None);
     let decided = program.touches(&known);
@@ -35,31 +38,33 @@ fn errors(answer: &Observation, program: &Program) -> Option<[(Exact, Exact); 2]
 /// Returns the largest error of answers relative to a program, at most a thousandth, if that of most is similar: of u in
 /// both states, of N, and not due to few digits. A program that is not right has to differ clearly.
 pub(super) fn common_error(program: &Program, is_right: bool, answers: &[&Observation]) -> Option<Exact> {
-    let limit = decimal(1, -3);
-    let is_small = |both: &[(Exact, Exact); 2]| both.iter().all(|(_, error)| *error <= limit);
-    let all = answers.iter().map(|answer| Some((*answer, errors(answer, program).filter(is_small)?)));
+    let is_small = |both: &Deviation| both.iter().all(|(_, error)| *error <= decimal(1, -3));
+    let all = answers.iter().map(|answer| Some((*answer, deviation(answer, program).filter(is_small)?)));
     let all: Vec<_> = all.collect::<Option<_>>()?;
     let most = all.iter().flat_map(|(_, both)| both).map(|(_, error)| error).max()?;
     let clear = Exact::from(CLEAR);
-    let shows = |answer: &Observation, i: usize, error: &Exact| {
+    let shows = |answer: &Observation, both: &Deviation, i: usize| {
+        let error = &both[i].1;
         &clear * error >= *most && error * &answer.scales[i] > &clear * answer.rounding(i)
     };
-    let [mut similar, mut touching, mut apart, mut pushing, mut forces, mut differing] = [0; 6];
-    for (answer, [(u, off_u), (n, off_n)]) in &all {
-        let [by_u, by_n] = [shows(answer, 0, off_u), shows(answer, 1, off_n)];
-        let is_printed = answer.numbers()[0].as_ref().is_some_and(|u| has_digits(u, PRINTED_DIGITS));
-        let differs = |i: usize, x: &Exact| (x - answer.exact(i)).abs() > &clear * most * &answer.scales[i];
-        similar += usize::from(by_u || by_n);
-        touching += usize::from(by_u && !is_printed && answer.state == Some(State::Contact));
-        apart += usize::from(by_u && !is_printed && answer.state == Some(State::Separated));
-        pushing += usize::from(!n.is_zero());
-        // Where either state is possible, the closer one may have another error.
-        forces += usize::from(by_n && answer.state.is_some());
-        differing += usize::from(differs(0, u) || differs(1, n));
-    }
-    let holds = 4 * similar >= 3 * all.len()
-        && touching.min(apart) >= INFORMATIVE
-        && (pushing == 0 || forces >= INFORMATIVE)
-        && (is_right || differing >= INFORMATIVE);
+    let differs = |answer: &Observation, both: &Deviation, i: usize| {
+        (&both[i].0 - answer.exact(i)).abs() > &clear * most * &answer.scales[i]
+    };
+    let count = |holds: &dyn Fn(&Observation, &Deviation) -> bool| {
+        all.iter().filter(|(answer, both)| holds(answer, both)).count()
+    };
+    let in_state = |state: State| {
+        count(&|answer, both| {
+            let is_printed = answer.numbers()[0].as_ref().is_some_and(|u| has_digits(u, PRINTED_DIGITS));
+            answer.state == Some(state) && shows(answer, both, 0) && !is_printed
+        })
+    };
+    let is_similar = 4 * count(&|answer, both| (0..2).any(|i| shows(answer, both, i))) >= 3 * all.len();
+    // Where either state is possible, the closer one may have another error.
+    let in_force = || count(&|answer, both| answer.state.is_some() && shows(answer, both, 1)) >= INFORMATIVE;
+    let holds = is_similar
+        && [State::Contact, State::Separated].into_iter().all(|state| in_state(state) >= INFORMATIVE)
+        && (count(&|_, both| !both[1].0.is_zero()) == 0 || in_force())
+        && (is_right || count(&|answer, both| (0..2).any(|i| differs(answer, both, i))) >= INFORMATIVE);
     holds.then(|| most.clone())
 }

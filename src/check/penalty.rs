@@ -2,9 +2,9 @@
 
 use super::observation::{INFORMATIVE, Observation};
 use super::scales::{decimal, short};
-use crate::chapter::{contact, system};
+use crate::chapter::contact;
 use crate::number::{Exact, PositivePart};
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 /// The penalty N/p of wrong answers, which penetrate the plane in equilibrium; with six digits.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,21 +14,16 @@ pub struct ApparentPenalty {
     pub unit: &'static str,
     /// The least and the largest penalty in this unit.
     pub range: [Exact; 2],
-    /// Whether all are the least one times powers of ten.
-    pub is_by_tens: bool,
-    /// The largest p relative to |H − l|, without systems with H = l.
-    pub penetration: Exact,
 }
 
 impl ApparentPenalty {
     /// Returns the penalty of the answers if all in which rounding does not hide p penetrate the plane in equilibrium.
     pub(super) fn of(wrong: &[&Observation]) -> Option<Self> {
-        let (mut penalties, mut by_c, mut part) = (Vec::new(), Vec::new(), Exact::zero());
+        let (mut penalties, mut by_c) = (Vec::new(), Vec::new());
         for answer in wrong {
-            let ([Some(u), Some(n)], system) = (answer.numbers(), &answer.problem.system) else {
-                return None;
-            };
-            let (p, gap) = (contact::penetration(system, u), system::gap(system).abs());
+            let system = &answer.problem.system;
+            let [Some(u), Some(n)] = answer.numbers() else { return None };
+            let p = contact::penetration(system, u);
             let rounding = &answer.sizes[0] * Exact::power_of_two(-52);
             // A ten-thousandth does not matter.
             if p.abs() <= &rounding * Exact::from(10_000) {
@@ -43,23 +38,11 @@ impl ApparentPenalty {
             }
             penalties.push(n / &p);
             by_c.push(n / &p / &system.c);
-            part = if gap.is_zero() { part } else { part.max(p / gap) };
         }
-        let in_units = [("N/m", penalties), ("c", by_c)].map(|(unit, all): (_, Vec<Exact>)| {
+        let in_units = [("N/m", penalties), ("c", by_c)].into_iter().filter_map(|(unit, all)| {
             let range = [all.iter().min()?, all.iter().max()?].map(|x| short(x, 6));
-            let is_by_tens = all.iter().all(|eps| is_power_of_ten(&(eps / &range[0])));
-            let found = ApparentPenalty { unit, range, is_by_tens, penetration: short(&part, 6) };
-            Some(found).filter(|_| all.len() >= INFORMATIVE)
+            (all.len() >= INFORMATIVE).then_some(ApparentPenalty { unit, range })
         });
-        in_units
-            .into_iter()
-            .flatten()
-            .min_by_key(|found| (!found.is_by_tens, &found.range[1] / &found.range[0]))
+        in_units.min_by_key(|found| &found.range[1] / &found.range[0])
     }
-}
-
-/// Returns `true` for a power of ten up to a thousandth, which answers of few digits allow.
-fn is_power_of_ten(x: &Exact) -> bool {
-    let power = x.to_f64().map_or(0, |x| x.log10().round() as i32);
-    (x / decimal(1, power) - Exact::one()).abs() <= decimal(1, -3)
 }

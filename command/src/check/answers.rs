@@ -1,6 +1,6 @@
 //! Answers in a table in place of a program: CSV, or JSON lines as a program prints them.
 
-use super::reply::{self, Row, words};
+use super::reply::{self, words};
 use crate::args::invalid;
 use crate::output::{Failure, shortened};
 use spring_mass_contact::chapter::SpringMass;
@@ -12,11 +12,9 @@ use std::io::{self, Read};
 /// Largest number of bytes of a table.
 const MAX_BYTES: u64 = 1 << 28;
 
-/// The columns of CSV that are required.
-const REQUIRED: [&str; 3] = ["id", "deflection", "contact_force"];
-
-/// What is read as CSV.
-const CSV: &str = "commas separate columns, and numbers have a decimal point";
+/// The format of CSV.
+const CSV: &str =
+    "in CSV the first line names the columns, commas separate them, and numbers have a decimal point";
 
 /// Answers with their problems, and the systems without an answer.
 #[derive(Default)]
@@ -39,7 +37,7 @@ fn table(text: &str, drawn: Vec<Problem>) -> Result<Table, String> {
     let (mut table, mut ids) = (Table::default(), HashSet::new());
     for (number, line) in (1..).zip(lines).filter(|(_, line)| !line.trim().is_empty()) {
         let at_line = |reason: String| format!("line {number}: {reason}");
-        let Row { id, system, reply } = reply::row(&line).map_err(at_line)?;
+        let (id, system, reply) = reply::row(&line).map_err(at_line)?;
         let (shown, known) = (shortened(&words(&id)), known.get(&*id));
         let problem = match (system, known) {
             (Some(system), _) => {
@@ -49,11 +47,9 @@ fn table(text: &str, drawn: Vec<Problem>) -> Result<Table, String> {
             }
             (None, Some(known)) => (*known).clone(),
             (None, None) => {
-                return Err(at_line(format!(
-                    "'{shown}' is not an id of contact cases with these --cases, --seed and --family, and the row \
-                     does not have {}",
-                    SpringMass::KEYS.into_array().join(", ")
-                )));
+                let must =
+                    "must be an id of contact cases with these options, or the row have all five parameters";
+                return Err(at_line(format!("the id '{shown}' {must}")));
             }
         };
         if !ids.insert(id) {
@@ -65,7 +61,7 @@ fn table(text: &str, drawn: Vec<Problem>) -> Result<Table, String> {
         }
     }
     if table.answers.is_empty() {
-        return Err("no row has a deflection and a contact_force".to_string());
+        return Err(format!("no row has an id, a deflection and a contact_force; {CSV}"));
     }
     // A table of other systems does not answer any of these.
     if drawn.iter().any(|problem| ids.contains(&problem.id)) {
@@ -76,11 +72,11 @@ fn table(text: &str, drawn: Vec<Problem>) -> Result<Table, String> {
 
 fn text(path: &str) -> Result<String, String> {
     let (mut bytes, limit) = (Vec::new(), MAX_BYTES + 1);
-    let count = match path {
+    let read = match path {
         "-" => io::stdin().take(limit).read_to_end(&mut bytes),
         path => File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes)),
     };
-    let count = count.map_err(|error| format!("cannot be read: {error}; must be a file, or - for stdin"))?;
+    let count = read.map_err(|error| format!("cannot be read: {error}; must be a file, or - for stdin"))?;
     if count as u64 > MAX_BYTES {
         return Err(format!("must have no more than {MAX_BYTES} bytes"));
     }
@@ -93,11 +89,8 @@ fn csv_lines(text: &str) -> Result<Vec<String>, String> {
     let refused = |error: csv::Error| format!("{error}; {CSV}");
     let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
     let names = csv.headers().map_err(refused)?.clone();
-    if !REQUIRED.iter().all(|required| names.iter().any(|name| name == *required)) {
-        let first = shortened(text.lines().next().unwrap_or_default());
-        return Err(format!("the first line '{first}' must name the columns {}; {CSV}", REQUIRED.join(", ")));
-    }
-    let read = [&REQUIRED[..], &SpringMass::KEYS.into_array(), &["penetration"]].concat();
+    let answer = ["id", "deflection", "contact_force", "penetration"];
+    let read = [&answer[..], &SpringMass::KEYS.into_array()].concat();
     let mut lines = Vec::new();
     for row in csv.records() {
         let row = row.map_err(refused)?;

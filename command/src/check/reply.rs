@@ -46,15 +46,8 @@ pub fn read(line: &[u8], id: &str) -> Option<Result<Reply, String>> {
     })
 }
 
-/// A row of a table.
-pub struct Row {
-    /// The id.
-    pub id: String,
-    /// The parameters of the system, if it has them.
-    pub system: Option<SpringMass<Exact>>,
-    /// The answer or refusal; `None` if the row is yet to be filled in.
-    pub reply: Option<Reply>,
-}
+/// A row of a table: its id, the system if the row has one, and the answer or refusal if it is filled in.
+pub type Row = (String, Option<SpringMass<Exact>>, Option<Reply>);
 
 /// Returns the row of a table in a line, or the reason why it is none.
 pub fn row(line: &str) -> Result<Row, String> {
@@ -62,15 +55,15 @@ pub fn row(line: &str) -> Result<Row, String> {
         let id = object_id(object)?.ok_or("the key 'id' is missing")?.into_owned();
         let mut digits = MAX_ANSWER_DIGITS;
         let system = SpringMass::KEYS.try_map(|key| optional(object, "", key, &mut digits))?;
-        let parameter = |(key, x): &(&str, Option<ReportedNumber>)| {
-            let must = "must be a number; a row has all five parameters or none";
-            x.clone().flatten().ok_or_else(|| format!("the key '{key}' {must}"))
-        };
         let is_own = system.as_ref().into_array().iter().any(|parameter| parameter.is_some());
-        let system = is_own.then(|| SpringMass::KEYS.zip(system).try_map(parameter)).transpose()?;
+        let system = SpringMass::KEYS.zip(system).try_map(|(key, x)| {
+            let must = "must be a number; a row has all five parameters or none";
+            x.flatten().ok_or_else(|| format!("the key '{key}' {must}"))
+        });
+        let system = if is_own { Some(system?) } else { None };
         let keys = ["deflection", "contact_force", "error"].map(|key| non_null(object, "", key));
         let is_filled = keys.into_iter().collect::<Result<Vec<_>, _>>()?.iter().any(Option::is_some);
-        Ok(Row { id, system, reply: is_filled.then(|| answer(object)).transpose()? })
+        Ok((id, system, is_filled.then(|| answer(object)).transpose()?))
     })
     .unwrap_or_else(|| Err("must be a JSON object".to_string()))
 }

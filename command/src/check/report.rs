@@ -20,18 +20,14 @@ const VALUE_DIGITS: usize = 12;
 /// Largest number of families with an example; JSON has all.
 const MAX_EXAMPLES: usize = 3;
 
-/// Largest number of listed systems without a row; JSON has all.
-const MAX_MISSING: usize = 12;
-
-/// Largest number of named mistakes that explain the same answers.
+/// Largest number of named mistakes that explain the same answers; JSON has all.
 const MAX_NAMED: usize = 4;
 
 /// Prints the number of answers of each kind, the families, examples of failures, and findings.
 pub fn table(out: &mut dyn Write, of: &Subject, report: &Report, tolerance: &Number) -> io::Result<()> {
     let within = format!("within {}", shortened(&tolerance.text));
-    let Subject { kind, name, missing } = of;
-    let systems = counts(report, &within);
-    output::list(out, [(*kind, name.clone()), ("systems", systems), ("missing", listed(missing))])?;
+    let (systems, missing) = (counts(report, &within), listed(&of.missing));
+    output::list(out, [(of.kind, of.name.clone()), ("systems", systems), ("missing", missing)])?;
     writeln!(out)?;
     let families = report.families();
     output::table(out, NAMES, families.iter().map(|row| cells(row, &within)), ..)?;
@@ -51,10 +47,8 @@ pub fn table(out: &mut dyn Write, of: &Subject, report: &Report, tolerance: &Num
 
 /// Lists the first ids of systems without a row.
 fn listed(missing: &[Problem]) -> String {
-    let ids = missing.iter().take(MAX_MISSING).map(|problem| &*problem.id);
-    let ids = ids.chain((missing.len() > MAX_MISSING).then_some("…"));
-    let ids = ids.collect::<Vec<_>>().join(", ");
-    if ids.is_empty() { ids } else { format!("{}: {ids}", missing.len()) }
+    let ids = missing.iter().map(|problem| &*problem.id).collect::<Vec<_>>().join(", ");
+    if ids.is_empty() { ids } else { format!("{}: {}", missing.len(), shortened(&ids)) }
 }
 
 fn counts(report: &Report, within: &str) -> String {
@@ -231,23 +225,19 @@ fn unexplained(report: &Report) -> Option<String> {
     let explained = report.fitting().next().is_some()
         || report.lag().is_some()
         || !(report.conditions.is_empty() && report.changed.is_empty() && report.carried_over.is_empty())
-        || report.absolute_bounds.iter().any(Option::is_some)
-        || report.apparent_penalty.as_ref().is_some_and(|penalty| penalty.is_by_tens);
+        || report.absolute_bounds.iter().any(Option::is_some);
     (report.results.iter().any(is_wrong) && !explained)
         .then(|| "No single mistake that is searched for explains the wrong answers.".to_string())
 }
 
 /// Describes wrong answers that have a penalty each.
 fn penetrating(report: &Report) -> Option<String> {
-    let ApparentPenalty { unit, range, is_by_tens, penetration } = report.apparent_penalty.as_ref()?;
-    let [least, most] = range.each_ref().map(|eps| eps.decimal(ERROR_DIGITS + 1, Round::Nearest));
-    let [least, most] = [least, most].map(|eps| unbroken(&format!("{eps} {unit}")));
-    let most_p = unbroken(&format!("{} |H − l|", upper_bound(penetration)));
-    let rule = " It differs by powers of ten, as if a rule multiplied it by ten until p is small.";
-    let rule = if *is_by_tens { rule } else { "" };
+    let ApparentPenalty { unit, range } = report.apparent_penalty.as_ref()?;
+    let text = |eps: &Exact| unbroken(&format!("{} {unit}", eps.decimal(ERROR_DIGITS + 1, Round::Nearest)));
+    let [least, most] = range.each_ref().map(text);
     Some(format!(
         "Where rounding does not hide p = l + u − H, the wrong answers are in equilibrium with p > 0, as by a \
-         penalty N/p from {least} to {most}; p is at most {most_p}.{rule}"
+         penalty N/p from {least} to {most}."
     ))
 }
 
@@ -310,9 +300,9 @@ fn named(diagnosis: &Diagnosis) -> String {
 
 /// Names the mistakes that explain the answers.
 fn diagnosed(report: &Report) -> Option<String> {
-    let count = report.fitting().count();
-    let mut names: Vec<_> = report.fitting().take(MAX_NAMED).map(named).collect();
-    names.extend((count > MAX_NAMED).then(|| format!("{} others, which JSON has", count - MAX_NAMED)));
+    let (count, mut names) = (report.fitting().count(), Vec::from_iter(report.fitting().map(named)));
+    names.truncate(MAX_NAMED);
+    let more = if count > MAX_NAMED { "; …" } else { "" };
     let Diagnosis { answers, of, .. } = report.fitting().next()?;
     let (which, others) = match answers {
         DiagnosisScope::Wrong => ("wrong answers", ", but not the right ones"),
@@ -321,9 +311,8 @@ fn diagnosed(report: &Report) -> Option<String> {
     Some(match &names[..] {
         [only] => format!("One mistake explains all {of} {which}{others}: {only}."),
         _ => format!(
-            "Each of {} mistakes explains all {of} {which}{others}: {}. More families or cases may tell which it \
-             is. The first one:",
-            count,
+            "Each of {count} mistakes explains all {of} {which}{others}: {}{more}. More families or cases may tell \
+             which it is. The first one:",
             names.join("; "),
         ),
     })

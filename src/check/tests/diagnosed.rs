@@ -323,54 +323,35 @@ fn what_is_carried_over_is_noticed() {
     assert!(rights.holds() && rights.changed.is_empty() && rights.repeated == silent.repeated);
 }
 
-/// Returns u and N with the penalty that a rule multiplies by ten until p is below a hundredth of |H − l|.
-fn by_rule(s: &SpringMass<Exact>, first: Exact) -> [Exact; 2] {
-    let most = system::gap(s).abs() / number("100");
-    let mut eps = first;
-    while contact::penetration(s, &by_penalty(s, eps.clone())[0]) >= most {
-        eps = eps * number("10");
-    }
-    by_penalty(s, eps)
+/// Returns one of two numbers for light, and for heavy masses.
+fn one_of_two(s: &SpringMass<Exact>, [light, heavy]: [&str; 2]) -> Exact {
+    number(if s.m < number("1") { light } else { heavy })
 }
 
-/// Penalties of a rule differ by powers of ten, in N/m or in c; others do not. Without equilibrium, without penetration,
-/// or with two wrong answers there is none.
+/// One of two penalties, in N/m or in c. Without equilibrium, without penetration, or with two wrong answers there is none.
 #[test]
 fn unexplained_answers_have_an_apparent_penalty() {
-    let [first, second] = ["1e4", "5e4"].map(number);
-    let table: [(Change, Option<(&str, bool)>); 5] = [
-        (|s, _, _| by_rule(s, number("7")), Some(("N/m", true))),
-        (|s, _, _| by_rule(s, number("7") * &s.c), Some(("c", true))),
-        (
-            |s, _, _| by_penalty(s, number(if s.m < number("1") { "1e4" } else { "5e4" })),
-            Some(("N/m", false)),
-        ),
+    type Range = (&'static str, [&'static str; 2]);
+    let table: [(Change, Option<Range>); 4] = [
+        (|s, _, _| by_penalty(s, one_of_two(s, ["1e4", "5e4"])), Some(("N/m", ["1e4", "5e4"]))),
+        (|s, _, _| by_penalty(s, one_of_two(s, ["700", "900"]) * &s.c), Some(("c", ["700", "900"]))),
         (
             |s, _, _| {
-                let [u, n] = by_rule(s, number("7"));
+                let [u, n] = by_penalty(s, one_of_two(s, ["1e4", "5e4"]));
                 [u, n * number("1.01")]
             },
             None,
         ),
-        (
-            |s, u, n| [u - number(if s.m < number("1") { "0.1" } else { "0.2" }) * system::gap(s).abs(), n],
-            None,
-        ),
+        (|s, u, n| [u - one_of_two(s, ["0.1", "0.2"]) * system::gap(s).abs(), n], None),
     ];
     for (place, (change, expected)) in table.into_iter().enumerate() {
         let report = changed(|problem, u, n| change(&problem.system, u, n));
-        let found = report.apparent_penalty.as_ref();
-        assert_eq!(found.map(|found| (found.unit, found.is_by_tens)), expected, "{place}");
-        if place == 0 {
-            let ApparentPenalty { range, penetration, .. } = found.unwrap();
-            assert!(range[0] == number("7") && range[1] > number("7e9"), "{range:?}");
-            assert!(*penetration < number("0.01") && *penetration > number("0.001"), "{penetration}");
-        } else if place == 2 {
-            assert_eq!(found.unwrap().range, [&first, &second].map(Exact::clone));
-        }
+        let expected = expected.map(|(unit, range)| ApparentPenalty { unit, range: range.map(number) });
+        assert_eq!(report.apparent_penalty, expected, "{place}");
     }
     let all = problems(1, 2, &[Family::Contact]);
-    assert_eq!(changed_in(&all, |of, _, _| by_rule(&of.system, number("7"))).apparent_penalty, None);
+    let two = changed_in(&all, |of, _, _| by_penalty(&of.system, one_of_two(&of.system, ["1e4", "5e4"])));
+    assert_eq!(two.apparent_penalty, None);
 }
 
 /// Returns u(1 − error), and N in equilibrium, as a damped Newton method leaves them that starts from 0.
@@ -453,26 +434,24 @@ fn a_mistake_behind_a_convention_is_named() {
         let report = changed_in(&problems(1, 3, Family::ALL), |problem, u, n| change(&problem.system, u, n));
         assert_eq!(names(&report), [format!("with the convention that {convention}, {mistake}")]);
     }
-    // Three forces show their sign, two do not.
-    for (contacts, is_named) in [(3, true), (2, false)] {
-        let mut all = problems(1, 3, &[Family::Contact]);
-        all.truncate(contacts);
-        all.extend(
-            problems(1, 4, &[Family::Separated, Family::Overlap])
-                .into_iter()
-                .filter(|problem| solution(problem.system.clone(), None)[1].is_zero()),
-        );
-        let report = changed_in(&all, |problem, _, _| {
-            let [u, n] = solved(
-                &problem.system.c,
-                &problem.system.m,
-                &(&problem.system.g * number("3/2")),
-                &problem.system.l,
-                &problem.system.h,
-            );
+    // Three forces show their sign, and three right deflections show millimetres. Two do not.
+    let mistakes: [Change; 2] = [
+        |s, _, _| {
+            let [u, n] = solved(&s.c, &s.m, &(&s.g * number("3/2")), &s.l, &s.h);
             [u, -n]
-        });
-        assert_eq!(names(&report).iter().any(|name| name.contains("−N is returned")), is_named, "{contacts}");
+        },
+        |s, u, n| [number("1000") * if n.is_zero() { system::weight(s) } else { u }, n],
+    ];
+    for (convention, change) in ["−N is returned as N", "1000 u is returned as u"].into_iter().zip(mistakes)
+    {
+        for (contacts, is_named) in [(3, true), (2, false)] {
+            let mut all = problems(1, 4, &[Family::Separated, Family::Overlap]);
+            all.retain(|problem| solution(problem.system.clone(), None)[1].is_zero());
+            all.extend(problems(1, contacts, &[Family::Contact]));
+            let report = changed_in(&all, |problem, u, n| change(&problem.system, u, n));
+            let is_found = names(&report).iter().any(|name| name.contains(convention));
+            assert_eq!(is_found, is_named, "{convention}: {contacts}, {:?}", names(&report));
+        }
     }
 }
 
