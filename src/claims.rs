@@ -80,7 +80,6 @@ pub fn registry() -> &'static Registry {
         let symbols: Vec<_> = Var::ALL.iter().map(|var| var.symbol()).collect();
         Registry::new(&symbols, formulas::recorded())
             .with_confusable(&[["c", "ε"], ["l", "H"]])
-            .with_implicit(&["ε"])
             .with_factors(&["k", "q", "t", "tol", "c", "ε", "ε₄", "m", "g", "l", "H", "u", "v", "λ"])
     });
     &REGISTRY

@@ -127,7 +127,7 @@ fn totals(out: &mut dyn Write, report: &VerificationReport, options: &verify::Op
         out,
         "{} of {} hold: {} decided, {} undecidable.",
         summary.held,
-        counted(checked.len() as u64, "claim", "claims"),
+        counted(checked.len() as u64, "check", "checks"),
         counted(checked.iter().map(|row| row.decided).sum(), "trial", "trials"),
         checked.iter().map(|row| row.undecided).sum::<u64>()
     )?;

@@ -56,7 +56,8 @@ fn eq_1_14() -> Entry {
     let Hypotheses { stiffness, penalty, .. } = hypotheses();
     let iterate = &deflection(s, eps, lambda);
     Entry::new("1.14", "Augmented functional")
-        .states("L(u) = «augmented::functional»")
+        .states("L(ε, λ, u) = «augmented::functional»")
+        .in_latex("L(u) = «augmented::functional»")
         .assuming([stiffness, penalty])
         .functions(["augmented::functional", "augmented::least_value"])
         .follows_from(["1.7", "1.9"])

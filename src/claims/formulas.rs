@@ -147,7 +147,7 @@ mod tests {
             (contact::penetration(&own, &(&u + &gap)), "p(u + Δ)"),
             (lagrange::functional(&own, &u, &r), "𝓛(u, R)"),
             (augmented::functional(&own, &eps, &lambda, &u), "L"),
-            (augmented::functional(&own, &eps, &r, &gap), "L(R, Δ)"),
+            (augmented::functional(&own, &eps, &r, &gap), "L(ε, R, Δ)"),
             (augmented::contraction(&own, &(&eps + &r)), "ρ(ε + R)"),
         ] {
             assert_eq!(registry().format_tree(&tree), text);

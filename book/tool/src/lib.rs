@@ -7,7 +7,6 @@
 //! | `{{#ref 1.13}}` | the equation number as a link, from any page |
 //! | `{{#source system::gap}}` | the Rust source of a function without a number |
 //! | `{{#formula system::gap}}` | the formula that a function computes, within `$…$` or outside |
-//! | `{{#claims}}` | all claims and their status |
 //! | `{{#figure plane}}` | a figure drawn from the results of the functions |
 //! | `{{#bench}}` | the [bench](mod@bench) |
 //! | `{{#live H g}}`, `{{#live eps, k=0}}`, `{{#live x}}` | a [small figure](bench::live) with sliders of these quantities |
@@ -25,7 +24,6 @@ pub mod proofs;
 mod source;
 
 use anyhow::{Context, Result};
-use claims::Claims;
 use math::Typesetter;
 use mdbook_preprocessor::{
     Preprocessor, PreprocessorContext,
@@ -53,12 +51,12 @@ impl Preprocessor for Equations {
     }
 
     fn run(&self, context: &PreprocessorContext, mut book: Book) -> Result<Book> {
-        let tags = tag("eq|ref|source|formula|figure|claims|bench|live")?;
+        let tags = tag("eq|ref|source|formula|figure|bench|live")?;
+        claims::verify_all()?;
         let expander = TagExpander {
             typesetter: Typesetter::new()?,
             folder: context.root.join("../src/chapter"),
             places: Places::of(&book, &tags)?,
-            claims: Claims::run()?,
             links_documentation: links_documentation(context)?,
         };
         let mut result = Ok(());
@@ -77,7 +75,6 @@ struct TagExpander {
     /// Folder with the sources of the chapter, one module per section.
     folder: PathBuf,
     places: Places,
-    claims: &'static Claims,
     links_documentation: bool,
 }
 
@@ -109,20 +106,15 @@ impl TagExpander {
         Ok(())
     }
 
-    /// Returns the text of a page. On a page of proofs it inserts links from each equation to the book and typesets
-    /// indices; the stored page has neither, since it is also read outside of the book.
+    /// Returns the text of a page. On a page of claims it inserts links from each equation to the book, which the stored
+    /// page does not have, since it is also read outside of the book.
     fn with_back_links(&self, chapter: &Chapter) -> String {
         let mut text = chapter.content.clone();
         if chapter.path.as_deref().is_some_and(|path| path.starts_with("proofs")) {
             for entry in entries() {
-                let heading = format!("\n## {}\n", heading(entry));
-                let place =
-                    self.places.get(entry.equation).map(|place| format!("[In the book](../{place}) · "));
-                let (place, claims) = (place.unwrap_or_default(), claims::anchor(entry));
-                let links = format!("[claims](../claims.md#{claims}) · [what to trust](../proofs.md#trust)");
-                text = text.replace(&heading, &format!("{heading}\n{place}{links}\n"));
-                let statement = format!("\n\n{}.\n", entry.statement());
-                text = text.replace(&statement, &claims::with_indices(&statement));
+                let Ok(place) = self.places.get(entry.equation) else { continue };
+                let heading = format!("\n## {}\n\n", heading(entry));
+                text = text.replace(&heading, &format!("{heading}[In the book](../{place}) · "));
             }
         }
         text
@@ -143,7 +135,6 @@ impl TagExpander {
                     name.split_once(", k=").map_or((name, None), |(fields, k)| (fields, Some(k)));
                 bench::live(fields, k.map(str::parse).transpose()?)
             }
-            "claims" => Ok(self.claims.page(&self.places)),
             _ => self.typesetter.inline(&tag[0]),
         }
     }
@@ -152,7 +143,7 @@ impl TagExpander {
     fn equation(&self, entry: &Entry, up: &str, level: usize) -> Result<String> {
         let (number, label) = (entry.equation, entry.label());
         let latex = entry.latex().with_context(|| format!("{label} has no formula"))?;
-        let (mut shown, mut folded) = (String::new(), self.claims.status(entry, up) + "\n\n");
+        let (mut shown, mut folded) = (String::new(), claims::status(entry, up) + "\n\n");
         // A function of several equations is printed with the first and linked from the others.
         for (i, function) in entry.functions.iter().enumerate() {
             let first = places::first_with(function).context("listed")?;
@@ -260,6 +251,6 @@ macro_rules! pages {
 }
 pages! {
     introduction notation system structure contact formulations lagrange penalty augmented
-    convergence stalls elements command check solvers speed beyond loose floats claims proofs
+    convergence stalls elements command check solvers beyond loose floats proofs
     sources teaching
 }

@@ -1,30 +1,24 @@
-//! The pages of claims and proofs, in Markdown.
+//! The pages of claims and their short proofs, in Markdown.
 
 use spring_mass_contact::{
     claims::{Entry, entries, registry},
-    formula::Statement,
-    proof::{
-        prove,
-        render::{self, ProofPrinter},
-    },
+    formula::{Hypothesis, Statement},
+    proof::{prove, render::ProofPrinter},
+    verify::experiments,
 };
-use std::fmt::Write;
 
-/// Sections of the entries, each with its title.
+/// Sections of the entries, each with the title of its page.
 pub const SECTIONS: [(&str, &str); 7] = [
-    ("1.1", "1.1 Structural part"),
-    ("1.2", "1.2 Contact part"),
-    ("1.3.1", "1.3.1 Lagrange multiplier method"),
-    ("1.3.2", "1.3.2 Penalty method"),
-    ("1.3.3", "1.3.3 Augmented Lagrangian method"),
-    ("notes", "The loose spots"),
-    ("beyond", "Beyond the chapter"),
+    ("1.1", "Claims of section 1.1"),
+    ("1.2", "Claims of section 1.2"),
+    ("1.3.1", "Claims of section 1.3.1"),
+    ("1.3.2", "Claims of section 1.3.2"),
+    ("1.3.3", "Claims of section 1.3.3"),
+    ("notes", "Claims of the notes"),
+    ("beyond", "Claims beyond the chapter"),
 ];
 
-/// Maximum number of lines of a proof that is not folded.
-const MAX_OPEN_LINES: usize = 20;
-
-/// Returns the file name and the Markdown text of a page for each section, with its entries, their claims and the proofs.
+/// Returns the file name and the Markdown text of a page for each section, with its entries and their claims.
 pub fn pages() -> impl Iterator<Item = (String, String)> {
     SECTIONS.iter().map(|(section, title)| (format!("{section}.md"), page(section, title)))
 }
@@ -34,65 +28,69 @@ pub fn heading(entry: &Entry) -> String {
     format!("{} {}", entry.label(), entry.title)
 }
 
-/// Returns the heading of the proof of a claim, which is unique on its page.
-pub fn heading_of(entry: &Entry, claim: &str) -> String {
-    format!("{claim}, {}", entry.label())
-}
-
-/// Returns the hypotheses of a claim as they are stated, without invariants, which are part of the proof.
-pub fn format_hypotheses(claim: &Statement) -> Vec<String> {
-    let stated = claim.stated_hypotheses().iter().filter(|h| claim.hypotheses().contains(h));
-    registry().format_hypotheses(&stated.cloned().collect::<Vec<_>>())
+/// Returns the names and statements of the claims that are only tested.
+pub fn tested(entry: &Entry) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let all = experiments::<f64>().into_iter().filter(|it| it.equation == entry.equation);
+    all.filter_map(|it| Some((it.name, it.statement?)))
 }
 
 fn page(section: &str, title: &str) -> String {
-    let mut text = format!(
-        "# Proofs: {title}\n\n\
-         This page is printed by the prover, and a test compares the two.\n\
-         [What is proved, and how](../proofs.md) explains the notation.\n"
-    );
-    let of_section = |entry: &&Entry| entry.section == section && !entry.claims.is_empty();
-    entries().iter().filter(of_section).for_each(|entry| text += &render_entry(entry));
+    let mut text = format!("# {title}\n\n[How to read them](../proofs.md#claims)\n");
+    entries().iter().filter(|entry| entry.section == section).for_each(|entry| text += &render_entry(entry));
     text
 }
 
-/// Renders an entry with its claims and proofs.
+/// Renders an entry with its claims, and the command that prints the proofs.
 fn render_entry(entry: &Entry) -> String {
-    let mut text = format!("\n## {}\n\n{}.\n", heading(entry), entry.statement());
-    if !entry.functions.is_empty() {
-        let modules = entry.functions.iter().filter_map(|function| function.split_once("::"));
-        let mut files: Vec<_> = modules.map(|(module, _)| format!("`src/chapter/{module}.rs`")).collect();
-        files.dedup();
-        let (functions, files) = (entry.functions.join("`, `"), files.join(" and "));
-        let _ = write!(text, "\nComputed by `{functions}` in {files}.\n");
+    let tested = tested(entry).map(|(name, statement)| format!("- *{name}*, tested: {statement}\n"));
+    let items: String = entry.claims.iter().map(|claim| render_claim(entry, claim)).chain(tested).collect();
+    if items.is_empty() {
+        return items;
     }
-    for claim in &entry.claims {
-        let printer = ProofPrinter::new(registry());
-        let mut conditions = String::new();
-        for (word, list, note) in [
-            ("if", format_hypotheses(claim), ""),
-            ("always", printer.invariants(claim), ", which is part of the proof"),
-        ] {
-            if !list.is_empty() {
-                let _ = write!(conditions, "\n\n{word} `{}`{note}", list.join("`, `"));
-            }
-        }
-        let heading = heading_of(entry, claim.name());
-        let _ = write!(text, "\n### {heading}\n\n`{}`{conditions}\n\n", printer.claim(claim));
-        text += &match prove(claim) {
-            Ok(proof) => {
-                let names = printer.names(claim).into_iter().map(|name| format!("where {name}"));
-                let lines: Vec<_> = names.chain(printer.proof(&proof)).collect();
-                let block = format!("```text\n{}\n```\n", lines.join("\n"));
-                let summary = format!("{}, {} lines", render::proof_summary(&proof), lines.len());
-                if lines.len() > MAX_OPEN_LINES {
-                    format!("<details><summary>{summary}</summary>\n\n{block}\n</details>\n")
-                } else {
-                    block
-                }
-            }
-            Err(error) => format!("**not proved**: {}\n", printer.describe(claim, &error)),
-        };
+    let number =
+        if entry.label().starts_with('(') { entry.equation } else { &format!("'{}'", entry.equation) };
+    let hypotheses = code(&entry.hypotheses).map_or(String::new(), |list| format!(", if {list}"));
+    format!("\n## {}\n\n`contact prove {number}`{hypotheses}:\n\n{items}", heading(entry))
+}
+
+/// Renders a claim with its proof, if that is one line. The hypotheses of the entry are not repeated.
+fn render_claim(entry: &Entry, claim: &Statement) -> String {
+    let printer = ProofPrinter::new(registry());
+    let stated = claim.stated_hypotheses().iter().filter(|h| claim.hypotheses().contains(h)).cloned();
+    let stated: Vec<_> = stated.collect();
+    let conditions = if entry.hypotheses.iter().all(|h| stated.contains(h)) {
+        let added: Vec<_> = stated.into_iter().filter(|h| !entry.hypotheses.contains(h)).collect();
+        code(&added).map_or(String::new(), |list| format!(", if {list}"))
+    } else {
+        code(&stated).map_or(", for all values".into(), |list| format!(", if only {list}"))
+    };
+    let text = printer.claim(claim);
+    let (statement, is_in_words) = match text.strip_prefix("both functions are ") {
+        Some(formula) => (format!("two functions compute `{formula}`"), true),
+        None if text == "it is 0 for all values" => ("the function is zero".into(), true),
+        None => (format!("`{}`", abbreviated(&text)), false),
+    };
+    let proof = match prove(claim).map(|proof| printer.proof(&proof)) {
+        Ok(lines) if lines.len() == 1 && !is_in_words => format!("; {}", lines[0]),
+        Ok(_) => String::new(),
+        Err(error) => format!(" **not proved**: {}", printer.describe(claim, &error)),
+    };
+    format!("- *{}*: {statement}{conditions}{proof}\n", claim.name())
+}
+
+/// Abbreviates the deflections of (1.16) and (1.13) in a claim without rounding.
+fn abbreviated(claim: &str) -> String {
+    if claim.contains("fl(") {
+        return claim.into();
     }
-    text
+    let claim = claim.replace("(ε (H − l) + m g) / (c + ε)", "u_ε");
+    ["λ", "x₁"].iter().fold(claim, |claim, multiplier| {
+        claim.replace(&format!("(m g − {multiplier} + ε (H − l)) / (c + ε)"), &format!("u({multiplier})"))
+    })
+}
+
+/// Formats hypotheses, if there are any.
+fn code(hypotheses: &[Hypothesis]) -> Option<String> {
+    let list = registry().format_hypotheses(hypotheses).join("`, `");
+    (!list.is_empty()).then(|| format!("`{list}`"))
 }

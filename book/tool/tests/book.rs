@@ -75,25 +75,17 @@ fn every_page_is_in_the_summary_and_in_pages() {
     assert_eq!(written, listed, "files, PAGES");
 }
 
-/// Returns the entries with the items of their sections on the page of claims.
+/// Returns the entries with the items of their sections on the pages of claims.
 fn claim_sections() -> impl Iterator<Item = (&'static Entry, Vec<&'static str>)> {
-    FILES[Path::new("claims.html")].split("<h3").skip(1).map(|section| {
-        let (heading, section) = section.split_once("</h3>").unwrap();
+    let pages = pages().filter(|(path, _)| path.starts_with("proofs"));
+    pages.flat_map(|(_, html)| html.split("<h2 id=").skip(1)).map(|section| {
+        let (heading, section) = section.split_once("</h2>").unwrap();
         let entry = entries().iter().find(|entry| heading.contains(&format!(">{} ", entry.label())));
         (
             entry.unwrap_or_else(|| panic!("no entry has the heading {heading}")),
             section.split("<li>").skip(1).collect(),
         )
     })
-}
-
-/// Returns the statement of a claim and its hypotheses, the code before the next block. Invariants are part of the
-/// proof.
-fn claim_text(html: &str) -> Vec<&str> {
-    let end =
-        ["<pre", "<details", "<h2", "<h3", "<p>always "].iter().filter_map(|next| html.find(next)).min();
-    let code = html[..end.unwrap_or(html.len())].split("<code>").skip(1);
-    code.map(|code| code.split("</code>").next().unwrap()).collect()
 }
 
 /// Returns the heading with this id and the text after it.
@@ -103,44 +95,40 @@ fn find_heading<'a>(html: &'a str, id: &str) -> (&'a str, &'a str) {
     (heading.split_once('>').unwrap().1, rest)
 }
 
-const SYSTEMS: [&str; 4] = ["f32", "f64", "256 bits", "rationals"];
+fn is_tested(item: &&str) -> bool {
+    item.contains("</em>, tested: ")
+}
 
-/// The page of claims has every claim, with the statement of the proof to which it links.
+/// The pages of claims have every claim, proved or tested, with its statement.
 #[test]
-fn page_of_claims_agrees_with_the_proofs() {
-    let item = r#"(?s)^<strong>([^<]*)</strong>(.*?)<span class="status">(?:<a href="([^#"]*)#([^"]*)">proved</a>|tested, not proved) · held in ([^<]*)<"#;
-    let item = Regex::new(item).unwrap();
+fn pages_of_claims_are_complete() {
+    let item =
+        Regex::new(r"(?s)^<em>([^<]*)</em>(, tested: \w|: <code>|: two functions compute <code>|: the)")
+            .unwrap();
     for (entry, items) in claim_sections() {
-        let (mut names, mut proofs) = (Vec::new(), 0);
-        for text in items {
+        let name = |text: &&str| {
             let found = item.captures(text).unwrap_or_else(|| panic!("{}: {text}", entry.label()));
-            names.push(found.get(1).unwrap().as_str());
-            let Some(page) = found.get(3) else { continue };
-            let (heading, proof) = find_heading(&FILES[Path::new(page.as_str())], &found[4]);
-            assert_eq!(heading, format!("{}, {}", &found[1], entry.label()));
-            let statement = claim_text(proof);
-            assert!(!statement.is_empty() && claim_text(&found[2]) == statement, "{heading}: {statement:?}");
-            // Rationals have no exponentials and do not round.
-            let is_exact = !["exp(", "fl(", "nearest("].iter().any(|name| statement.concat().contains(name));
-            let held: Vec<_> = found[5].split(", ").map(|held| held.split(" (").next().unwrap()).collect();
-            assert_eq!(held, SYSTEMS[..if is_exact { 4 } else { 3 }], "{heading}");
-            proofs += 1;
-        }
+            found.get(1).unwrap().as_str().to_string()
+        };
+        let proved = items.iter().filter(|item| !is_tested(item)).count();
+        let mut names: Vec<_> = items.iter().map(name).collect();
         let mut expected = claim_names(entry.equation);
         names.sort_unstable();
         expected.sort_unstable();
-        assert_eq!((names, proofs), (expected, entry.claims.len()), "{}", entry.label());
+        assert_eq!(proved, entry.claims.len(), "{}", entry.label());
+        assert_eq!(names, expected, "{}", entry.label());
     }
     let sections = claim_sections().map(|(entry, _)| entry.equation);
     let with_claims = entries().iter().map(|entry| entry.equation).filter(|it| !claim_names(it).is_empty());
     assert_eq!(sections.collect::<BTreeSet<_>>(), with_claims.collect());
 }
 
-/// The heading of a box is one level below that of its section, and its status agrees with the page of claims.
+/// The heading of a box is one level below that of its section, and its status agrees with the claims to which it links.
 #[test]
-fn boxes_agree_with_the_page_of_claims() {
+fn boxes_agree_with_the_pages_of_claims() {
     let heading = Regex::new(r#"<h([1-6])[^>]* id="([^"]*)""#).unwrap();
-    let status = r#"(?s)<div class="status">\s*<p>proved: <a href="([^#"]*)#([^"]*)">(\d+) claims?</a>(.*?) · held in (.*?) · "#;
+    let status =
+        r#"(?s)<div class="status">\s*<p><a href="([^#"]*)#([^"]*)">(\d+) claims?</a> proved(.*?)</p>"#;
     let status = Regex::new(status).unwrap();
     let mut boxes = BTreeSet::new();
     for (path, html) in pages().filter(|(path, _)| !path.ends_with("index.html")) {
@@ -156,35 +144,26 @@ fn boxes_agree_with_the_page_of_claims() {
             let (title, rest) = find_heading(html, &found[2]);
             assert_eq!(title, format!("Equation {number} · {}", entry.title));
             let found = status.captures(rest).unwrap();
-            let proof = find_heading(&FILES[Path::new(&found[1])], &found[2]).0;
-            assert_eq!(proof, format!("{} {}", entry.label(), entry.title));
-            let (proved, tested): (Vec<_>, Vec<_>) =
-                items.into_iter().partition(|item| item.contains(">proved</a>"));
+            let claims = find_heading(&FILES[Path::new(&found[1])], &found[2]).0;
+            assert_eq!(claims, format!("{} {}", entry.label(), entry.title));
+            let (tested, proved): (Vec<_>, Vec<_>) = items.into_iter().partition(is_tested);
             assert_eq!(found[3].parse(), Ok(proved.len()), "({number})");
-            let tested_too = format!(", and {} only tested", tested.len());
+            let tested_too = format!(", {} only tested", tested.len());
             assert_eq!(found[4], if tested.is_empty() { String::new() } else { tested_too }, "({number})");
-            let holds = |item: &&&str, system: &str| item.split_once("held in ").unwrap().1.contains(system);
-            let held = SYSTEMS.map(|system| match proved.iter().filter(|item| holds(item, system)).count() {
-                all if all == proved.len() => system.to_string(),
-                some => format!("{system} ({some} of {} claims)", proved.len()),
-            });
-            let without_none = held.into_iter().filter(|held| !held.contains("(0 of"));
-            assert_eq!(found[5], without_none.collect::<Vec<_>>().join(", "), "({number})");
             boxes.insert(number);
         }
     }
     assert_eq!(boxes.len(), equations().count());
 }
 
-/// The proofs of each entry link back to the book, and to what has to be trusted.
+/// The claims of each entry link back to the book.
 #[test]
-fn proofs_link_back_to_the_book() {
+fn claims_link_back_to_the_book() {
     let pages: String =
         pages().filter(|(path, _)| path.starts_with("proofs")).map(|(_, html)| html.as_str()).collect();
-    let proved = entries().iter().filter(|entry| !entry.claims.is_empty()).count();
-    assert_eq!(pages.matches("\"../proofs.html#trust\">what to trust</a>").count(), proved);
     for (entry, _) in equations() {
-        let back = format!("#eq-{}\">In the book</a>", entry.equation.replace('.', "-"));
+        let (number, id) = (entry.equation, entry.equation.replace('.', "-"));
+        let back = format!("#eq-{id}\">In the book</a> · <code>contact prove {number}</code>");
         assert_eq!(pages.matches(&back).count(), 1, "{}", entry.label());
     }
 }

@@ -81,7 +81,7 @@ fn the_table_shows_failed_claims_counterexamples_and_shared_functions() {
   with a higher precision.
 
 0 of 2 claims proved for all values.
-1 of 4 claims hold: 12 trials decided, 8 undecidable.
+1 of 4 checks hold: 12 trials decided, 8 undecidable.
 5 cases from seed 42.
 Rounding errors: at most 250 % of the bound (1.13 rate, exact).
 Every claim that is not proved uses penalty::deflection,

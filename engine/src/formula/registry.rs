@@ -64,7 +64,6 @@ pub struct Call<'a> {
 pub struct Registry {
     symbols: Vec<&'static str>,
     confusable: Vec<[&'static str; 2]>,
-    implicit: Vec<&'static str>,
     factors: Vec<&'static str>,
     formulas: Vec<Formula>,
     /// Indices of the functions by the site of their last operation.
@@ -114,11 +113,6 @@ impl Registry {
     /// Sets pairs of symbols of the same unit that could be confused.
     pub fn with_confusable(self, pairs: &[[&'static str; 2]]) -> Self {
         Registry { confusable: pairs.to_vec(), ..self }
-    }
-
-    /// Sets symbols that are parameters. Abbreviations omit them as arguments if all have their usual names.
-    pub fn with_implicit(self, parameters: &[&'static str]) -> Self {
-        Registry { implicit: parameters.to_vec(), ..self }
     }
 
     /// Sets the order of the factors in a product.
@@ -252,16 +246,6 @@ impl Registry {
         self.names(None).of(tree)
     }
 
-    /// Returns the names of the arguments that an abbreviation with `count` arguments displays.
-    pub(crate) fn displayed_arguments<'f>(
-        &'f self,
-        formula: &'f Formula,
-        count: usize,
-    ) -> impl Iterator<Item = &'static str> + 'f {
-        let all = count == formula.depends_on().count();
-        formula.depends_on().filter(move |name| count > 0 && (all || !self.implicit.contains(name)))
-    }
-
     /// Formats a formula with abbreviations.
     pub fn format_tree(&self, tree: &Tree) -> String {
         tree.typeset(Notation::Text, &|tree| self.call_name(tree))
@@ -388,15 +372,10 @@ impl CallNames<'_> {
         if self.root.is_some_and(|root| root.name() == formula.name()) {
             return None;
         }
-        let names = arguments.iter().zip(formula.depends_on());
-        let unusual = names.filter(|(of, name)| of.typeset(Notation::Text, &|tree| self.of(tree)) != *name);
-        let unusual: Vec<_> = unusual.map(|(_, name)| name).collect();
-        // Either all parameters or none are displayed, so that arguments are identified by their position.
-        let shows_parameters = unusual.iter().any(|name| self.registry.implicit.contains(name));
-        let displayed = arguments.into_iter().zip(formula.depends_on()).filter(|(_, name)| {
-            !unusual.is_empty() && (shows_parameters || !self.registry.implicit.contains(name))
-        });
-        let arguments = displayed.map(|(argument, _)| argument).collect();
+        // Either all arguments or none are displayed, so that they are identified by their position.
+        let name = |tree: &Tree| tree.typeset(Notation::Text, &|tree| self.of(tree));
+        let is_usual = arguments.iter().zip(formula.depends_on()).all(|(of, usual)| name(of) == usual);
+        let arguments = if is_usual { Vec::new() } else { arguments };
         Some(Name { symbol: formula.symbol.to_string(), arguments })
     }
 }

@@ -139,9 +139,9 @@ impl<'a> ProofPrinter<'a> {
     /// Returns the definitions of the names in a claim: `d = a b − c (x − y)`.
     pub fn names(&self, statement: &Statement) -> Vec<String> {
         let printer = self.for_statement(statement);
-        let definitions = printer.called(statement).into_iter().map(|Called { formula, arguments }| {
-            let names: Vec<_> = printer.registry.displayed_arguments(formula, arguments).collect();
-            let names = if names.is_empty() { String::new() } else { format!("({})", names.join(", ")) };
+        let definitions = printer.called(statement).into_iter().map(|Called { formula, has_arguments }| {
+            let names: Vec<_> = formula.depends_on().collect();
+            let names = if has_arguments { format!("({})", names.join(", ")) } else { String::new() };
             format!("{}{names} = {}", formula.symbol, printer.registry.typeset(formula, Notation::Text))
         });
         definitions.collect()
@@ -165,10 +165,10 @@ impl<'a> ProofPrinter<'a> {
     fn add_called<'s>(&'s self, tree: &Tree, all: &RefCell<Vec<Called<'s>>>) {
         tree.typeset(Notation::Text, &|part| {
             let (name, Call { formula, .. }) = self.registry.call_name(part).zip(self.registry.call(part))?;
-            let (mut called, arguments) = (all.borrow_mut(), name.arguments.len());
+            let (mut called, has_arguments) = (all.borrow_mut(), !name.arguments.is_empty());
             match called.iter_mut().find(|known| known.formula.name() == formula.name()) {
-                Some(known) => known.arguments = known.arguments.max(arguments),
-                None => called.push(Called { formula, arguments }),
+                Some(known) => known.has_arguments |= has_arguments,
+                None => called.push(Called { formula, has_arguments }),
             }
             Some(name)
         });
@@ -243,8 +243,8 @@ fn leaves(node: &Node) -> Vec<&[Step]> {
 /// An abbreviated formula.
 struct Called<'a> {
     formula: &'a Formula,
-    /// Maximum number of displayed arguments.
-    arguments: usize,
+    /// Whether its arguments are displayed.
+    has_arguments: bool,
 }
 
 /// Letters for the index of a sequence in order of preference, and their superscripts.

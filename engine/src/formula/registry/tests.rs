@@ -65,14 +65,6 @@ fn the_quantities_of_collected_formulas_are_their_arguments() {
 }
 
 #[test]
-fn implicit_arguments_are_displayed_with_all_others() {
-    let formula = Formula::new("sum", "k", &["a", "b", "c"], x("a") + x("b") + x("c"));
-    let registry = registry().with_implicit(&["b"]);
-    let displayed = |many| registry.displayed_arguments(&formula, many).collect::<Vec<_>>();
-    assert_eq!([0, 2, 3].map(displayed), [vec![], vec!["a", "c"], vec!["a", "b", "c"]]);
-}
-
-#[test]
 fn confusable_symbols_are_found_in_both_directions() {
     let registry = registry().with_confusable(&[["a", "b"], ["c", "a"]]);
     let others = |symbol| registry.confusable_with(symbol).collect::<Vec<_>>();
