@@ -54,7 +54,8 @@ fn eq_1_10() -> Entry {
     let Case { system: s, u, eps, eps4, .. } = symbols();
     let Hypotheses { stiffness, penalty, quartic, penetrating, .. } = hypotheses();
     let quartic_term = std::slice::from_ref(eps4);
-    let [residual, mirrored] = [u, &-u].map(|p| series_residual(s, eps, quartic_term, p));
+    let p = &contact::penetration(s, u);
+    let [residual, mirrored] = [p, &-p].map(|p| series_residual(s, eps, quartic_term, p));
     let dual = symbols().with_dual_variable(u);
     Entry::new("1.10", "Penalty functional with many terms")
         .states("W = «penalty::series» satisfies the conditions on a penalty functional")
@@ -64,22 +65,20 @@ fn eq_1_10() -> Entry {
         .follows_from(["1.9"])
         .claims([
             equal("vanishes-at-contact", series(eps, quartic_term, &int(0)), 0).only_assuming([]),
-            positive("positive", series(eps, quartic_term, &contact::penetration(s, u)))
-                .assuming([penetrating]),
-            positive("increasing", series_force(eps, quartic_term, &contact::penetration(s, u)))
-                .assuming([penetrating]),
-            derivative("unbounded", series(eps, quartic_term, u), eps, half(u * u)).only_assuming([]),
-            equal("one-term", series(eps, &[], u), functional(eps, u)).only_assuming([]),
-            equal("force", series_force(eps, quartic_term, u), eps * u + int(4) * eps4 * u * u * u)
+            positive("positive", series(eps, quartic_term, p)).assuming([penetrating]),
+            positive("increasing", series_force(eps, quartic_term, p)).assuming([penetrating]),
+            derivative("unbounded", series(eps, quartic_term, p), eps, half(p * p)).only_assuming([]),
+            equal("one-term", series(eps, &[], p), functional(eps, p)).only_assuming([]),
+            equal("force", series_force(eps, quartic_term, p), eps * p + int(4) * eps4 * p * p * p)
                 .only_assuming([]),
-            derivative("slope", series(eps, quartic_term, u), u, series_force(eps, quartic_term, u))
+            derivative("slope", series(eps, quartic_term, p), u, series_force(eps, quartic_term, p))
                 .only_assuming([]),
             equal("odd", residual + mirrored, -(int(2) * reaction(s))).only_assuming([]),
             derivative(
                 "stiffens",
-                series_residual(s, eps, quartic_term, u),
+                series_residual(s, eps, quartic_term, p),
                 u,
-                total_stiffness(s, eps) + int(12) * eps4 * u * u,
+                total_stiffness(s, eps) + int(12) * eps4 * p * p,
             )
             .only_assuming([]),
             positive(

@@ -20,7 +20,7 @@ static EXERCISES: LazyLock<Vec<Exercise>> = LazyLock::new(|| {
     pages.into_iter().flat_map(|name| exercises(name)).collect()
 });
 
-/// Returns the exercises of a page, three to five with the numbers from 1, which are its last section.
+/// Returns the exercises of a page, one to five with the numbers from 1, which are its last section.
 fn exercises(name: &str) -> Vec<Exercise> {
     let exercise = r#"(?ms)^<strong id="exercise-(\d+)">(\d+)\. (Predict|Compute|Prove|Break)\.</strong> (.*?)
 <details class="solution">
@@ -34,7 +34,7 @@ fn exercises(name: &str) -> Vec<Exercise> {
     let other = exercise.replace_all(section, "");
     assert!(other.trim().is_empty(), "{name}: not an exercise with a folded solution: {other}");
     let found: Vec<_> = exercise.captures_iter(section).collect();
-    assert!((3..=5).contains(&found.len()), "{name} has {} exercises", found.len());
+    assert!((1..=5).contains(&found.len()), "{name} has {} exercises", found.len());
     let found = found.iter().zip(1..).map(|(found, number)| {
         assert_eq!([&found[1], &found[2]], [&*number.to_string(); 2], "{name}: numbers");
         let [kind, statement, solution] = [3, 4, 5].map(|i| found[i].to_string());
@@ -87,7 +87,7 @@ fn numbers_of_a_solution_are_checked() {
         let unchecked: Vec<_> = stated.difference(&values(&(code + statement))).cloned().collect();
         assert!(unchecked.is_empty(), "{name}: not checked: {unchecked:?}");
     }
-    assert!(seen > 20, "{seen}");
+    assert!(seen > 5, "{seen}");
 }
 
 /// The minutes and points on the page for lecturers add up, and the texts of its links agree with their targets.
