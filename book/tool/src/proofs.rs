@@ -71,8 +71,10 @@ fn render_claim(entry: &Entry, claim: &Statement) -> String {
         None => (format!("`{}`", abbreviated(&text)), false),
     };
     let proof = match prove(claim).map(|proof| printer.proof(&proof)) {
-        Ok(lines) if lines.len() == 1 && !is_in_words => format!("; {}", lines[0]),
-        Ok(_) => String::new(),
+        Ok(lines) => match &lines[..] {
+            [line] if !is_in_words && !line.contains("a sum of") => format!("; {line}"),
+            _ => String::new(),
+        },
         Err(error) => format!(" **not proved**: {}", printer.describe(claim, &error)),
     };
     format!("- *{}*: {statement}{conditions}{proof}\n", claim.name())
