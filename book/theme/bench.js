@@ -16,6 +16,7 @@ const position = ({ powers }, a) => (powers ? log10(a) : nearest(a, 53, -1074));
 // An entry of a legend.
 const key = (of, name) => `<span><svg viewBox="0 0 28 14" aria-hidden="true">${of}</svg>${name}</span>`;
 const live = fields => `
+<div class="bench-plots">
 <div class="bench-views">
   <svg class="bench-system" role="group" aria-label="The system; the plane can be moved">
     <g></g><g class="bench-plane bench-slider" role="slider" tabindex="0" aria-label="height H of the support above the plane" aria-orientation="vertical" aria-valuenow="0"></g>
@@ -30,6 +31,9 @@ const live = fields => `
   ${key('<path class="bench-iterate" stroke-dasharray="7 4" d="M0 12L28 2"/>', "<i>N</i> = <i>λ<sub>k</sub></i> + <i>ε p</i>")}
   ${key('<path class="bench-iterate bench-thin" d="M4 13L20 7H4"/><circle class="bench-dot" cx="20" cy="7" r="3"/>', "the steps")}
 </div>
+</div>
+<p class="bench-verdict" id="bench-verdict" role="status"></p>
+<div class="bench-controls">
 <div class="bench-buttons">
   <button type="button" data-step="1">Step</button>
   <button type="button" data-step="10">10 steps</button>
@@ -38,7 +42,6 @@ const live = fields => `
   <button type="button" data-step="start">To the start</button>
   <button type="button" data-step="reset">Reset</button>
 </div>
-<p class="bench-verdict" id="bench-verdict" role="status"></p>
 <div class="bench-fields">${Object.entries(FIELDS).filter(([key]) => fields.includes(key)).map(([key, { sign, name, unit, from, to }]) => `
   <label for="bench-${key}"><i>${sign}</i> <span>${name}</span></label>
   <input type="range" min="${from}" max="${to}" step="${(to - from) / 1000}" data-slide="${key}" aria-label="${name} ${sign}, by a slider">
@@ -52,12 +55,15 @@ const live = fields => `
     <option value="both">bilateral, as printed</option><option value="one">unilateral</option>
   </select>
 </div>
+</div>
+<div class="bench-rate">
 <svg class="bench-decay" role="img" aria-label="The penetration at each step, on a logarithmic scale"></svg>
 <div class="bench-key">
   ${key('<circle class="bench-dot" cx="14" cy="7" r="3"/>', "|<i>p<sub>k</sub></i>| as computed")}
   ${key('<circle class="bench-ring" cx="14" cy="7" r="5"/>', "exact |<i>p</i>| at the computed <i>u<sub>k</sub></i>")}
   ${key('<path class="bench-faint" stroke-dasharray="4 3" d="M0 2L28 12"/>', "<i>ρ<sup>k</sup></i>|<i>p</i><sub>0</sub>|")}
   ${key('<path class="bench-thin" stroke-dasharray="1 3" d="M0 7H28"/>', "<i>F</i>, scale of the rounding floor")}
+</div>
 </div>
 <div class="bench-table" role="region" aria-label="Values of the steps" tabindex="0"><table>
   <thead><tr><th scope="col"><i>k</i></th><th scope="col"><i>λ<sub>k</sub></i> in N</th><th scope="col"><i>u<sub>k</sub></i> in m</th>
@@ -303,6 +309,19 @@ const drawDecay = (svg, { values, rows }, run) => {
 
 const SHOWN = 12;
 
+// The result of a small figure: the state of the solution, or that of the penalty method.
+const summary = (result, solved) => {
+  const given = inFractions(result), { rows, system } = result;
+  const reaction = exact["system::reaction"](given), text = (a, unit) => `${brief(a)} ${unit}`;
+  if (!solved) {
+    const { p, next } = rows.at(-1), force = system.exactly(next);
+    return { kind: "penalty", text: `p = ${text(system.exactly(p), "m")} and N = ε p = ${text(force, "N")}, short of R by ${text(fractions.sub(reaction, force), "N")}.` };
+  }
+  const p = exact["contact::penetration"]({ ...given, u: exact["contact::deflection"](given) });
+  const kind = reaction.n > 0n ? "contact" : reaction.n ? "separated" : "grazing";
+  return { kind, text: `R = ${text(reaction, "N")}, so p = ${text(p, "m")} and N = ${text(exact["contact::contact_force"](given), "N")}.` };
+};
+
 // A root with `data-fields` is a small figure with these fields alone, whose state is not in the address.
 const open = root => {
   const small = root.dataset.fields !== undefined, fields = small ? root.dataset.fields.split(" ") : Object.keys(FIELDS);
@@ -349,9 +368,10 @@ const open = root => {
       if (slide !== document.activeElement) slide.value = position(FIELDS[key], systems[question.numbers].exactly(values[key]));
     }
     result = run(question, values, untilRest);
-    const { rows, system } = result, k = rows.length - 1, { kind, text } = verdict(result);
+    const { rows, system } = result, k = rows.length - 1;
+    const { kind, text } = small && rows.length ? summary(result, root.classList.contains("bench-solved")) : verdict(result);
     if (untilRest) question = { ...question, k: Math.max(k, 0) };
-    say(kind, `${k < 0 ? "" : `, k = ${k}`}. ${text}`);
+    say(kind, `${small || k < 0 ? "" : `, k = ${k}`}. ${text}`);
     find(".bench-table tbody").replaceChildren(...rows.slice(-SHOWN).map((row, i) => {
       const line = document.createElement("tr");
       const cells = [Math.max(0, rows.length - SHOWN) + i, ...[row.lambda, row.u, row.p, row.next].map(system.show)];

@@ -70,7 +70,8 @@ const openFlow = root => {
   new ResizeObserver(show).observe(root);
 };
 
-// A page, or the print of all pages, can contain this script several times.
+// A page, or the print of all pages, can contain this script several times. Texts about a figure stand before it.
+for (const text of document.querySelectorAll(".bench-text")) text.hidden = false;
 for (const root of document.querySelectorAll(".bench:not(.live)")) {
   (root.dataset.fields === "x" ? openFlow : open)(root);
 }

@@ -257,7 +257,7 @@ pub fn penalty_for<T: Field>(system: &SpringMass<T>, tolerance: &T) -> T {
 /// let lifted = SpringMass { c: 4.0, m: 1.0, g: 4.0, l: 1.0, h: 3.0 };
 /// assert_eq!(penalty::unilateral_deflection(&lifted, &4.0), 1.0); // hangs free
 /// ```
-/// [In the book](../../../../book/penalty.html#fn-penalty-unilateral_deflection)
+/// [In the book](../../../../book/unilateral.html#fn-penalty-unilateral_deflection)
 pub fn unilateral_deflection<T: PositivePart>(system: &SpringMass<T>, eps: &T) -> T {
     structure::deflection(system).min(&deflection(system, eps))
 }

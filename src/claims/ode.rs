@@ -197,8 +197,8 @@ fn eq_1_32() -> Entry {
     let Hypotheses { stiffness, penalty, penetrating, gap_open, time, .. } = hypotheses();
     let p = contact::penetration(s, &solution(s, eps, u, t));
     Entry::new("1.32", "Limit of the penetration")
-        .states("lim p(u) = 0 as t → ∞")
-        .in_latex(r"\lim_{t\to\infty} p(u(t)) = 0")
+        .states("lim p(u) = 0 as t → ∞, from which lim p(u_k) = 0 does not follow")
+        .in_latex(r"\lim_{t\to\infty} p(u) = 0 \;\overset{?}{\Rightarrow}\; \lim_{k\to\infty} p(u_k) = 0")
         .assuming([stiffness, penalty])
         .functions(["contact::penetration"])
         .follows_from(["1.31"])

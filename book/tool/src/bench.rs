@@ -97,17 +97,18 @@ fn to_javascript(tree: &Tree) -> Result<String> {
     })
 }
 
-/// Returns the HTML of the bench: a paragraph for readers without scripts, and the script that replaces it.
+/// Returns the HTML of the bench. Where the script runs, it replaces a figure directly before it, and shows the
+/// elements of the class `bench-text`, which are hidden otherwise and in print.
 ///
 /// # Errors
 /// Returns the errors of [`formulas`].
 pub fn html() -> Result<String> {
-    element("bench", "", &format!("\n{FALLBACK}\n"))
+    element("bench", "")
 }
 
 /// Returns the HTML of a small figure that moves: `fields` are the symbols of its sliders, and it shows the state
 /// after `k` augmentations of the example, or the solution if `k` is `None`. The field `x` alone shows explicit Euler
-/// steps of that size for (1.23).
+/// steps of that size for (1.23). It replaces a figure like the [bench](html).
 ///
 /// # Errors
 /// Returns the errors of [`formulas`].
@@ -118,12 +119,12 @@ pub fn live(fields: &str, k: Option<u32>) -> Result<String> {
         Some(k) => ("bench bench-small", k),
         None => ("bench bench-small bench-solved", 40),
     };
-    element(class, &format!(" data-fields=\"{fields}\" data-k=\"{k}\""), "")
+    element(class, &format!(" data-fields=\"{fields}\" data-k=\"{k}\""))
 }
 
 /// Returns an element with its script.
-fn element(class: &str, data: &str, content: &str) -> Result<String> {
-    Ok(format!("<div class=\"{class}\"{data}>{content}</div>\n\n<script>\n{}</script>\n", script()?))
+fn element(class: &str, data: &str) -> Result<String> {
+    Ok(format!("<div class=\"{class}\"{data}></div>\n\n<script>\n{}</script>\n", script()?))
 }
 
 /// Returns the script of the bench and of the small figures.
@@ -133,7 +134,3 @@ fn element(class: &str, data: &str, content: &str) -> Result<String> {
 pub fn script() -> Result<String> {
     Ok(format!("(() => {{\n\"use strict\";\n{}{MODEL}{PAGE}}})();\n", formulas()?))
 }
-
-/// Text for readers without scripts, and for print.
-const FALLBACK: &str = "<p>With scripts enabled, an interactive bench appears here. The <a href=\"#fig-augmented\">figure above</a> \
-                        shows its first steps for the example.</p>";

@@ -237,20 +237,22 @@ fn tag(kinds: &str) -> Result<Regex> {
 
 // The Rust snippets of the pages are compiled and run as documentation tests.
 macro_rules! pages {
-    ($($page:ident)*) => {
+    (@name $page:ident) => { stringify!($page) };
+    (@name $page:ident $name:literal) => { $name };
+    ($($page:ident $(= $name:literal)?)*) => {
         /// File names of the pages, without `.md`.
-        pub const PAGES: &[&str] = &[$(stringify!($page)),*];
+        pub const PAGES: &[&str] = &[$(pages!(@name $page $($name)?)),*];
         #[cfg(doctest)]
         mod snippets {
             $(
-                #[doc = include_str!(concat!("../../src/", stringify!($page), ".md"))]
+                #[doc = include_str!(concat!("../../src/", pages!(@name $page $($name)?), ".md"))]
                 mod $page {}
             )*
         }
     };
 }
 pages! {
-    introduction notation system structure contact formulations lagrange penalty augmented
-    convergence stalls elements command check solvers beyond loose floats proofs
+    introduction notation system structure contact formulations lagrange penalty augmented unilateral
+    convergence comparison penalty_choice = "penalty-choice" stalls elements command check solvers beyond loose floats proofs
     sources teaching
 }

@@ -420,8 +420,9 @@ class Element {
 globalThis.ResizeObserver = class { observe() {} };
 globalThis.on = {};
 globalThis.addEventListener = (kind, listener) => { on[kind] = listener; };
-const opened = search => {
+const opened = (search, dataset = {}, solved = false) => {
   const root = new Element("root"), create = name => new Element(name);
+  Object.assign(root, { dataset, classList: { add() {}, contains: () => solved } });
   root.querySelector(".bench-system").append(create("g"), create("g"));
   globalThis.location = { search, pathname: "/" };
   globalThis.history = { replaceState: (state, title, url) => { location.search = url.replace(/^\/|#.*/g, ""); } };
@@ -499,6 +500,38 @@ console.log(JSON.stringify(input.asked.map(search => {
     let slope = (law[3] - law[1]) / (law[2] - law[0]);
     assert!(dots.len() == 5 && slope > 0.0);
     dots.iter().for_each(|dot| assert_close(law[1] + slope * (dot[0] - law[0]), dot[1]));
+}
+
+/// A small figure names the state of the solution, or the result of the penalty method, and the field with a mistake.
+#[test]
+#[ignore = "requires node"]
+fn small_figures_name_the_state_and_the_mistake() {
+    const SAID: &str = r#"
+const said = (fields, solved) => {
+  const root = opened("", { fields, k: solved ? "40" : "0" }, solved), out = [];
+  const enter = (text, value) => {
+    root.on.input({ target: { dataset: { text }, value } });
+    out.push(root.querySelector(".bench-verdict").text.replace(/\u00a0/g, " "));
+  };
+  return [enter, out];
+};
+const [enter, out] = said("g H", true);
+for (const g of ["10", "8", "4", "4,5"]) enter("g", g);
+const [soft, penalty] = said("eps", false);
+for (const eps of ["4", "0"]) soft("eps", eps);
+console.log(JSON.stringify([...out, ...penalty]));
+"#;
+    let found = node(&format!("{DOCUMENT}{SAID}"), &json!({ "script": script().unwrap() }));
+    let said: Vec<String> = from_str(&found).unwrap();
+    let expected = [
+        "contact. R = 2 N, so p = 0 m and N = 2 N.",
+        "grazing. R = 0 N, so p = 0 m and N = 0 N.",
+        "separated. R = −4 N, so p = −1 m and N = 0 N.",
+        "g: not a number such as 0.05, 5e-2 or 1/20.",
+        "penalty. p = 0.25 m and N = ε p = 1 N, short of R by 1 N.",
+        "ε: not greater than 0.",
+    ];
+    assert_eq!(said, expected);
 }
 
 /// Document for the functions that draw, on a page without a bench.

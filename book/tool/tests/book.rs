@@ -231,6 +231,26 @@ fn bench_is_on_its_page_unchanged() {
     }
 }
 
+/// A text that refers to a live figure is hidden until the script, which follows it, shows both; and the figure that
+/// the live one replaces is directly before it.
+#[test]
+fn texts_on_live_figures_are_hidden_without_scripts() {
+    let live = Regex::new(r#"<div class="bench(?: bench-small[^"]*)?"[^>]*></div>"#).unwrap();
+    let mut count = 0;
+    for (path, html) in pages() {
+        let Some(found) = live.find(html) else { continue };
+        let (before, _) = html.split_at(found.start());
+        let (_, text) = before.rsplit_once("<div class=\"bench-text\" hidden").expect("a text");
+        let (_, between) = text.split_once("</div>").unwrap();
+        let is_replaced =
+            between.trim_start().starts_with("<figure") && between.trim_end().ends_with("</figure>");
+        assert!(is_replaced || path.ends_with("convergence.html"), "{}: {between}", path.display());
+        count += 1;
+    }
+    // The introduction is also the first page.
+    assert_eq!(count, 6);
+}
+
 #[test]
 fn no_external_resources_are_loaded() {
     let fetching =
