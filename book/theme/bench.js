@@ -220,29 +220,31 @@ const drawForces = (svg, { values, rows }, run, box, former = values) => {
   const line = (a, b, attributes, within = box) => path(clipped(a, b, within).map(at), attributes);
   const span = right - left, far = gap + span;
   const [x0, y0] = at([0, 0]), [, y1] = at([0, reaction]), force = `R = ${brief(exactly(reaction))} N`;
-  const text = x => brief(exactly(x)), axes = [];
+  const text = x => brief(exactly(x)), axes = [], texts = [];
   for (const x of ticks(left, right, Math.max(2, Math.floor(width / 90)))) {
     const [at_x] = at([x, 0]);
     axes.push(path([[at_x, height - 16], [at_x, height - 20]], { class: "bench-thin" }));
-    if (at_x > 24 && at_x < width - 46) axes.push(label(at_x, height - 4, text(x), { class: "bench-tick bench-middle" }));
+    if (at_x > 24 && at_x < width - 16) texts.push(label(at_x, height - 4, text(x), { class: "bench-tick bench-middle" }));
   }
   for (const x of ticks(low, high, Math.max(2, Math.floor(height / 50)))) {
     const [, at_y] = at([0, x]);
     axes.push(path([[1, at_y], [5, at_y]], { class: "bench-thin" }));
-    if (x && at_y > 26 && at_y < height - 26) axes.push(label(8, at_y + 4, text(x), { class: "bench-tick" }));
+    if (x && at_y > 26 && at_y < height - 26) texts.push(label(8, at_y + 4, text(x), { class: "bench-tick" }));
   }
+  texts.push(
+    // Titles stand inside the drawing, on different sides of an axis at its edge.
+    label(width - 2, y0 < 40 ? y0 + 18 : y0 - 8, "p in metres", { class: "bench-tick bench-end" }),
+    x0 > width - 90 ? label(x0 - 8, 9, "N in newtons", { class: "bench-tick bench-end" }) : label(x0 + 8, 9, "N in newtons", { class: "bench-tick" }),
+    // Labels stand clear of the falling line.
+    reaction < 0 && x0 > 8 * force.length ? label(x0 - 6, Math.min(y1 + 14, height - 24), force, { class: "bench-end" }) : label(x0 + 8, Math.max(y1 - 4, 24), force),
+  );
   const parts = [
     ...axes,
     line([0, 0], [span, 0], { class: "bench-faint" }),
     line([0, 0], [0, 1], { class: "bench-faint" }),
-    // Titles stand inside the drawing, on different sides of an axis at its edge.
-    label(width - 2, y0 < 40 ? y0 + 18 : y0 - 8, "p in metres", { class: "bench-tick bench-end" }),
-    x0 > width - 90 ? label(x0 - 8, 9, "N in newtons", { class: "bench-tick bench-end" }) : label(x0 + 8, 9, "N in newtons", { class: "bench-tick" }),
     ...(changed(former, values) ? [line(...equilibrium(former, span), { class: "bench-spring bench-former" })] : []),
     line(...equilibrium(values, span), { class: "bench-spring" }),
     path([at([left, 0]), at([0, 0]), at([0, high])], { class: "bench-plane bench-corner" }),
-    // Labels stand clear of the falling line.
-    reaction < 0 && x0 > 8 * force.length ? label(x0 - 6, Math.min(y1 + 14, height - 24), force, { class: "bench-end" }) : label(x0 + 8, Math.max(y1 - 4, 24), force),
   ];
   const now = rows.at(-1);
   if (now) {
@@ -261,7 +263,8 @@ const drawForces = (svg, { values, rows }, run, box, former = values) => {
       parts.push(draw("circle", { cx, cy, r: row === now ? 5 : 2.5, class: "bench-dot" }));
     }
   }
-  svg.replaceChildren(...parts);
+  // Texts hide the lines behind them.
+  svg.replaceChildren(...parts, ...texts);
 };
 
 const drawDecay = (svg, { values, rows }, run) => {

@@ -172,7 +172,7 @@ const EQUILIBRIUM: &[Point] = &[(0.0, 2.0), (0.25, 1.0), (0.5, 0.0)];
 
 /// Labels of the marks of each figure, which end its description.
 ///
-/// Expected values: the tables in contact.md (`states`), formulations.md with ε = 4 (`methods`), penalty.md, augmented.md
+/// Expected values: the tables in contact.md (`states`), comparison.md with ε = 4 (`methods`), penalty.md, augmented.md
 /// and convergence.md (`rates`). The update with α = c + ε has N = (4 + 4)·0.25. In `bent`, c = 4, R = −4 and ε = 4, and
 /// the multipliers from λ = 10 are 3 and 0. The energies are −12 J plus −2p + 2p², −2p + 4p², 2p² and −p + 4p².
 const MARKS: &[(&str, &str)] = &[
