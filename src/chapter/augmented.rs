@@ -314,7 +314,7 @@ pub fn unilateral_equilibrium<T: PositivePart>(system: &SpringMass<T>, eps: &T, 
 /// let system = SpringMass { c: 4.0, m: 1.0, g: 10.0, l: 1.0, h: 3.0 };
 /// assert_eq!(augmented::unilateral_deflection(&system, &4.0, &-5.0), 2.5); // hangs free
 /// ```
-/// [In the book](../../../../book/loose.html#fn-augmented-unilateral_deflection)
+/// [In the book](../../../../book/unilateral.html#fn-augmented-unilateral_deflection)
 pub fn unilateral_deflection<T: PositivePart>(system: &SpringMass<T>, eps: &T, lambda: &T) -> T {
     structure::deflection(system).min(&deflection(system, eps, lambda))
 }
@@ -332,7 +332,7 @@ pub fn unilateral_deflection<T: PositivePart>(system: &SpringMass<T>, eps: &T, l
 /// assert_eq!(augmented::natural_residual(&system, &4.0, &1.0, &2.125), 0.125);
 /// assert_eq!(augmented::natural_residual(&system, &4.0, &0.0, &1.0), 0.0); // free and done
 /// ```
-/// [In the book](../../../../book/loose.html#fn-augmented-natural_residual)
+/// [In the book](../../../../book/unilateral.html#fn-augmented-natural_residual)
 pub fn natural_residual<T: PositivePart>(system: &SpringMass<T>, eps: &T, lambda: &T, u: &T) -> T {
     -(-contact::penetration(system, u)).min(&(lambda / eps))
 }
