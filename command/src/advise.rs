@@ -22,12 +22,14 @@ Examples:
   contact advise --tolerance 1e-40 --scalar mpfr:200 --format json
 
 Every recommendation has been confirmed by a run, from which k, the exact
-penetration p and the error of the force m g − c u are taken. Every penalty in
-the range guarantees the tolerance, and none that is smaller by more than a
-hundredth does; the error of the force is then at most c T plus rounding. In
-JSON the error of the force is relative. Up to the larger bound, rounding
-changes the method's own force (N = ε p, or the multiplier) by at most c T; if
-no sufficient penalty has that, the larger bound is the recommendation.
+penetration p and the error of the force m g − c u are taken. The augmentation
+is that with the smallest penalty for which ten steps suffice or, if that is
+beyond the range, with the fewest steps. Every penalty in the range guarantees
+the tolerance, and none that is smaller by more than a hundredth does; the error
+of the force is then at most c T plus rounding. In JSON the error of the force
+is relative. Up to the larger bound, rounding changes the method's own force
+(N = ε p, or the multiplier) by at most c T; if no sufficient penalty has that,
+the larger bound is the recommendation.
 
 Exit status: 0 a method meets the tolerance; 1 none does; 2 bad input.";
 

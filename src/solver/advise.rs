@@ -59,8 +59,11 @@ pub struct Recommendation<T> {
 ///
 /// - The penalty method with the smallest sufficient penalty, to two digits, or with 10 c if every penalty
 ///   suffices.
-/// - The augmentation with the fewest steps: with the largest penalty for which rounding changes the
-///   multiplier by no more than the tolerance allows.
+/// - The augmentation with the smallest penalty, to two digits, that is guaranteed to need at most ten steps,
+///   or with 10 c if every penalty suffices. Without rounding this penalty is the smallest ε with
+///   (1 + ε/c)¹¹ > R/(c tol), which makes p₁₀ = R/(c + ε) (1 + ε/c)⁻¹⁰ smaller than the tolerance. If rounding
+///   with it would change the multiplier by more than the tolerance allows, the augmentation has the fewest
+///   steps: the penalty is the largest one, to one digit, without this effect.
 ///
 /// The laws in [`rounding`](crate::chapter::rounding) determine the penalties for the parameters as
 /// represented in their scalar; each method is then run. A method that is not recommended cannot be
@@ -77,9 +80,9 @@ pub struct Recommendation<T> {
 /// let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
 /// let advice = advise(&system, &1e-12)?;
 /// let penalties = advice.recommendations.iter().map(|choice| choice.method.penalty().copied());
-/// assert_eq!(penalties.collect::<Vec<_>>(), [None, Some(4.9e12), Some(7e4)]);
+/// assert_eq!(penalties.collect::<Vec<_>>(), [None, Some(4.9e12), Some(840.0)]);
 /// let solution = solve(&system, &advice.recommendations[2].method)?;
-/// assert_eq!((solution.outcome, solution.augmentations), (Outcome::Converged, Some(3)));
+/// assert_eq!((solution.outcome, solution.augmentations), (Outcome::Converged, Some(10)));
 /// # Ok::<(), spring_mass_contact::solver::SolveError>(())
 /// ```
 pub fn advise<T: Scalar + ExactText>(system: &SpringMass<T>, tolerance: &T) -> Result<Advice<T>, SolveError> {
@@ -129,11 +132,12 @@ fn next_above(x: &Exact, digits: usize) -> Exact {
     round_to_digits(&(x * Exact::from(1001) / Exact::from(1000)), digits, Round::Up)
 }
 
-/// Returns the smallest penalty, within a hundredth, that needs at most [`MAX_AUGMENTATIONS`], starting the
-/// search from `eps`. A larger penalty never needs more augmentations, and a sufficiently large one always
-/// converges. `augmentations` returns the number for a penalty, or `None` if it does not converge.
-fn min_penalty_within_limit(eps: &Exact, augmentations: impl Fn(&Exact) -> Option<Integer>) -> Exact {
-    let suffices = |eps: &Exact| augmentations(eps).is_some_and(|k| k <= MAX_AUGMENTATIONS);
+/// Largest number of steps of a recommended augmentation, unless its penalty would be too large.
+const RECOMMENDED_AUGMENTATIONS: u64 = 10;
+
+/// Returns the smallest penalty, within a hundredth, that suffices, starting the search from `eps`; if one
+/// suffices, so does every larger one, and a sufficiently large one has to exist.
+fn min_penalty(eps: &Exact, suffices: impl Fn(&Exact) -> bool) -> Exact {
     let scaled = |n: i32| eps * Exact::power_of_two(n);
     let sufficient = if suffices(eps) {
         scaled(-last_where(|n| suffices(&scaled(-n))))
@@ -184,8 +188,9 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
         let all_suffice = range.min.is_zero();
         let eps =
             if all_suffice { Exact::from(10) * &self.exact_system.c } else { next_above(&range.min, 2) };
-        let penalty = self.recommend(&range, &eps, |penalty| Method::Penalty { penalty });
-        let augmentation = self.is_above_floor.then(|| self.recommend_augmentation(eps, all_suffice));
+        let penalty =
+            self.recommend(&range, &eps, |eps| *eps > range.min, |penalty| Method::Penalty { penalty });
+        let augmentation = self.is_above_floor.then(|| self.recommend_augmentation(&eps, all_suffice));
         [penalty, augmentation.flatten()].into_iter().flatten().collect()
     }
 
@@ -198,29 +203,46 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
         }
     }
 
-    /// Returns the augmentation with the largest penalty that preserves the digits of the multiplier, but not
-    /// larger than `direct_eps`, which needs no augmentation. If it is too small, returns that with the
-    /// smallest sufficient penalty.
-    fn recommend_augmentation(&self, direct_eps: Exact, all_suffice: bool) -> Option<Recommendation<T>> {
+    /// Returns the augmentation with the smallest two-digit penalty that needs at most
+    /// [`RECOMMENDED_AUGMENTATIONS`], or with `direct_eps` if every penalty suffices. If that is too large to
+    /// preserve the digits of the multiplier, returns the largest penalty that does, or the smallest that needs
+    /// at most [`MAX_AUGMENTATIONS`] if it is larger.
+    fn recommend_augmentation(&self, direct_eps: &Exact, all_suffice: bool) -> Option<Recommendation<T>> {
+        let takes_at_most = |limit: u64, eps: &Exact| {
+            let count = match &self.arithmetic {
+                Arithmetic::Rounded(laws) => {
+                    laws.max_augmentations(eps, &self.exact_tolerance).ok().flatten()
+                }
+                Arithmetic::Exact | Arithmetic::Separated => self.exact_count(eps),
+            };
+            count.is_some_and(|k| k <= limit)
+        };
+        let is_quick = |eps: &Exact| takes_at_most(RECOMMENDED_AUGMENTATIONS, eps);
+        let is_admissible = |eps: &Exact| takes_at_most(MAX_AUGMENTATIONS, eps);
         let max = match &self.arithmetic {
             Arithmetic::Rounded(laws) => laws.max_penalty_for_multiplier(&self.exact_tolerance),
             Arithmetic::Exact | Arithmetic::Separated => None,
         };
-        let eps = match &max {
-            Some(max) if *max > Exact::zero() => direct_eps.min(round_to_digits(max, 1, Round::Down)),
-            Some(_) | None => direct_eps,
-        };
         let min = match &self.arithmetic {
             Arithmetic::Exact if all_suffice => Exact::zero(),
-            Arithmetic::Exact => min_penalty_within_limit(&eps, |eps| self.exact_count(eps)),
-            Arithmetic::Rounded(laws) => min_penalty_within_limit(&eps, |eps| {
-                laws.max_augmentations(eps, &self.exact_tolerance).ok()?
-            }),
+            Arithmetic::Exact | Arithmetic::Rounded(_) => min_penalty(direct_eps, is_admissible),
             // With a smaller penalty rounding near grazing could turn separation into contact.
             Arithmetic::Separated => self.exact_system.c.clone(),
         };
+        let eps = if all_suffice {
+            direct_eps.clone()
+        } else {
+            let least = min_penalty(direct_eps, is_quick);
+            let below = round_to_digits(&least, 2, Round::Down);
+            if is_quick(&below) { below } else { round_to_digits(&least, 2, Round::Up) }
+        };
+        let eps = match &max {
+            Some(max) if *max > Exact::zero() && *max < eps => round_to_digits(max, 1, Round::Down),
+            Some(_) | None => eps,
+        };
         let eps = eps.max(round_to_digits(&min, 2, Round::Up));
-        self.recommend(&PenaltyRange { min, max }, &eps, |penalty| Method::Augmented {
+        let suffices = |x: &Exact| if is_quick(&eps) { is_quick(x) } else { is_admissible(x) };
+        self.recommend(&PenaltyRange { min, max }, &eps, suffices, |penalty| Method::Augmented {
             penalty,
             tolerance: self.tolerance.clone(),
             max_augmentations: MAX_AUGMENTATIONS,
@@ -238,11 +260,12 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
         &self,
         range: &PenaltyRange,
         eps: &Exact,
+        suffices: impl Fn(&Exact) -> bool,
         method: impl Fn(T) -> Method<T>,
     ) -> Option<Recommendation<T>> {
         // Rounded to nearest, unless the result is too small.
         let nearest = self.coarsest.round_from_exact(eps).ok()?;
-        let eps = if exact(&nearest) > range.min { nearest } else { self.round(eps, Round::Up)? };
+        let eps = if suffices(&exact(&nearest)) { nearest } else { self.round(eps, Round::Up)? };
         let recommendation = self.run(method(eps.clone()))?;
         // A count replaces the run in rationals, whose length would grow.
         let is_exact = matches!(self.arithmetic, Arithmetic::Exact);
@@ -313,17 +336,11 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
 mod tests {
     use super::*;
 
-    /// A penalty of 1 takes exactly the allowed number, 2 takes fewer, and below 1/2 the iteration does not
-    /// converge.
     #[test]
     fn the_smallest_penalty_is_found_from_any_start() {
-        let [half, one, two] = ["1/2", "1", "2"].map(|x| x.parse::<Exact>().unwrap());
-        let needed = |eps: &Exact| {
-            let more = i32::from(*eps < one) - i32::from(*eps >= two);
-            (*eps >= half).then(|| Integer::from(MAX_AUGMENTATIONS) + more)
-        };
+        let one = Exact::from(1);
         for from in ["1e-99", "1/3", "0.999", "1", "1.001", "1.3", "2", "7", "1e99"] {
-            let found = min_penalty_within_limit(&from.parse().unwrap(), needed);
+            let found = min_penalty(&from.parse().unwrap(), |eps| *eps >= one);
             assert!(one <= found && found < &one + &one / Exact::from(100), "{found} from {from}");
         }
     }

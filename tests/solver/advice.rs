@@ -95,6 +95,33 @@ fn the_smallest_penalty_has_two_digits() {
     assert_eq!([least("1/4"), least("1/2")], [Some(int(4)), None]);
 }
 
+/// R = 4.81, c = 100: p₁₀ is smaller than the tolerance if (1 + ε/c)¹¹ > R/(c tol). For 1e-12 m that is 4.81e10, so
+/// ε > 835.6; for 1e-9 m, ε > 399.3; for 1e-6 m, ε > 166.5. The limit by rounding is 7.44e16 tol − c, near the floor less
+/// than twice the penalty: for 2.1e-14 m, of which rounding leaves 1.84e-14, 1463 for ε > 1245. For 1e-14 m it is 644 for
+/// ε > 1322; the largest one with one digit is 600, and p₁₄ = 1.01e-14.
+#[test]
+fn the_augmentation_takes_ten_steps_with_the_smallest_penalty() {
+    let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 };
+    for (tolerance, eps, steps) in
+        [(1e-6, 170.0, 10), (1e-9, 400.0, 10), (1e-12, 840.0, 10), (2.1e-14, 1300.0, 10), (1e-14, 600.0, 15)]
+    {
+        let choices = advise(&system, &tolerance).unwrap().recommendations;
+        assert_eq!((choices[2].method.penalty(), choices[2].augmentations), (Some(&eps), Some(steps)));
+    }
+}
+
+/// With c = H = 1 and Δ = 0 the limit by rounding is tol/(11 η) − 1, so 9 for a tolerance of 110 η, of which rounding
+/// leaves 89 η. Ten steps suffice if 89 η (1 + ε)¹¹ > R: 9.9¹¹ = 8.95e10 is too small for R = 8.4e12 η, 10¹¹ is not.
+#[test]
+fn a_penalty_at_the_limit_by_rounding_is_recommended() {
+    let eta = eta_of(100);
+    let system =
+        SpringMass { c: int(1), m: int(1), g: int(84) * power(&int(10), 11) * &eta, l: int(1), h: int(1) };
+    let advice = advise(&system.map(|x| x.to_mpfr(100)), &(int(110) * eta).to_mpfr(100)).unwrap();
+    let choice = &advice.recommendations[2];
+    assert_eq!((choice.method.penalty().map(exact), choice.augmentations), (Some(int(9)), Some(10)));
+}
+
 /// Δ = 2: rounding changes the deflection of (1.13) by up to 5 η Δ (1 + 2 η) for every penalty, at grazing as
 /// well. This value is not a guaranteed tolerance; every larger one is.
 #[test]
@@ -294,6 +321,31 @@ fn smallest_penalty_suffices<T: Float + ExactText>(case: &Case<T>) {
     }
 }
 
+/// The augmentation is that with the smallest penalty, to two digits, for which at most ten steps are guaranteed. If it is
+/// too large for the multiplier, no penalty of the range has this guarantee, except for the digits.
+fn augmentation_takes_at_most_ten_steps<T: Float + ExactText>(case: &Case<T>) {
+    let (numbers, tol, eta) = (case.system.map(exact), exact(&case.tolerance), case.eta());
+    let takes_ten_steps = |eps: &Exact| {
+        let most = guaranteed_max_augmentations(&numbers, eps, &tol, &eta).unwrap();
+        most.is_some_and(|most| most <= 10)
+    };
+    let choices = advise(&case.system, &case.tolerance).unwrap().recommendations;
+    let [_, by_penalty, by_augmentation] = &choices[..] else { return };
+    if by_penalty.penalty_range[0].is_none() {
+        return; // every penalty suffices
+    }
+    let eps = exact(by_augmentation.method.penalty().expect("a penalty"));
+    // Two digits are a factor of up to 11/10, and rounding may be one of 1 + 2⁻⁷.
+    let smaller = |eps: &Exact| eps * q("8/9");
+    if takes_ten_steps(&eps) {
+        assert!(by_augmentation.augmentations.unwrap() <= 10, "{by_augmentation:?}");
+        assert!(!takes_ten_steps(&smaller(&eps)), "{by_augmentation:?}");
+    } else {
+        let max = exact(by_augmentation.penalty_range[1].as_ref().expect("a limit"));
+        assert!(!takes_ten_steps(&smaller(&max)), "{by_augmentation:?}");
+    }
+}
+
 /// The guaranteed number of augmentations suffices, at the floor and far above it.
 fn guaranteed_augmentations_suffice<T: Float>(case: &Case<T>) {
     let (eta, numbers) = (case.eta(), case.system.as_ref().map(exact));
@@ -328,6 +380,7 @@ in_every_float! {
     advice_holds from any_state;
     largest_penalty_preserves_the_force from in_contact;
     smallest_penalty_suffices from in_contact;
+    augmentation_takes_at_most_ten_steps from in_contact;
     guaranteed_augmentations_suffice from in_contact;
 }
 
@@ -341,6 +394,7 @@ fn advice_holds_for_recorded_cases() {
         if case.exact().reaction() > int(0) {
             largest_penalty_preserves_the_force(&case);
             smallest_penalty_suffices(&case);
+            augmentation_takes_at_most_ten_steps(&case);
         }
     }
     for recorded in [
