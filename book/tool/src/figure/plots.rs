@@ -169,7 +169,7 @@ pub fn block() -> Figure {
     let (middle, residual, bound) = rows[rows.len() / 2];
     plot.text("iterate", (middle, residual), (-14.0, 16.0), "|r_k|");
     plot.text("", (middle, bound), (4.0, -10.0), "|r_0| / (1 + ε s_{min})^{k}");
-    let caption = "Residuals of the block (dots) and the bound $|r_0|/(1 + \\varepsilon s_{\\min})^k$ (dashed), for $\\varepsilon = \\kappa$. \
+    let caption = "Residuals of the block (dots) and the bound $|r_0|/(1 + \\varepsilon s_{\\min})^k$ (dashed), for $\\varepsilon = 10\\,\\bar c$. \
                    The slopes become equal as the slowest mode remains.";
     let description = "Residuals on a logarithmic axis against the number k of augmentations. They fall faster than \
                        the bound, along a curve whose slope becomes that of the bound:";
