@@ -160,7 +160,7 @@ pub fn block() -> Figure {
         Some((k, residual, bound))
     });
     let rows: Vec<_> = rows.collect();
-    let mut plot = decay(10.0, 2.0, Axis::powers("residual in millimetres", -14, -2, 2));
+    let mut plot = decay(8.0, 1.0, Axis::powers("residual in millimetres", -14, -2, 2));
     plot.line("dashed", rows.iter().map(|(k, _, bound)| (*k, *bound)));
     plot.line("iterate fine dotted", rows.iter().map(|(k, residual, _)| (*k, *residual)));
     for (k, residual, _) in &rows {
