@@ -46,7 +46,7 @@ fn eq_1_6() -> Entry {
     let solved = kkt(s, &deflection(s), &contact_force(s));
     let [p, other_p] = [u, v].map(|u| penetration(s, u));
     let [n, other_n] = [u, v].map(|u| augmented::contact_force(s, u));
-    Entry::new("1.6", "Karush-Kuhn-Tucker conditions")
+    Entry::new("1.6", "Karush-Kuhn-Tucker (KKT) conditions")
         .states(
             "p ≤ 0, N ≥ 0, «contact::kkt.complementarity» = 0 and «contact::equilibrium» = 0 have \
              exactly one solution",
