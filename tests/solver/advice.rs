@@ -110,16 +110,18 @@ fn the_augmentation_takes_ten_steps_with_the_smallest_penalty() {
     }
 }
 
-/// With c = H = 1 and Δ = 0 the limit by rounding is tol/(11 η) − 1, so 9 for a tolerance of 110 η, of which rounding
-/// leaves 89 η. Ten steps suffice if 89 η (1 + ε)¹¹ > R: 9.9¹¹ = 8.95e10 is too small for R = 8.4e12 η, 10¹¹ is not.
+/// With c = H = 1 and Δ = 0 the limit by rounding is tol/(11 η) − 1, so 9.5 for a tolerance of 115.5 η, of which rounding
+/// leaves 94.5 η. Ten steps suffice if 94.5 η (1 + ε)¹¹ > R = 1.55e13 η: 10.4¹¹ = 1.54e11 is too small, 10.5¹¹ is not.
 #[test]
 fn a_penalty_at_the_limit_by_rounding_is_recommended() {
     let eta = eta_of(100);
-    let system =
-        SpringMass { c: int(1), m: int(1), g: int(84) * power(&int(10), 11) * &eta, l: int(1), h: int(1) };
-    let advice = advise(&system.map(|x| x.to_mpfr(100)), &(int(110) * eta).to_mpfr(100)).unwrap();
-    let choice = &advice.recommendations[2];
-    assert_eq!((choice.method.penalty().map(exact), choice.augmentations), (Some(int(9)), Some(10)));
+    let g = int(155) * power(&int(10), 11) * &eta;
+    let system = SpringMass { c: int(1), m: int(1), g, l: int(1), h: int(1) }.map(|x| x.to_mpfr(100));
+    let choices = advise(&system, &(q("115.5") * eta).to_mpfr(100)).unwrap().recommendations;
+    assert_eq!(
+        (choices[2].method.penalty().map(exact), choices[2].augmentations),
+        (Some(q("9.5")), Some(10))
+    );
 }
 
 /// Δ = 2: rounding changes the deflection of (1.13) by up to 5 η Δ (1 + 2 η) for every penalty, at grazing as
