@@ -326,7 +326,7 @@ fn smallest_penalty_suffices<T: Float + ExactText>(case: &Case<T>) {
 /// The augmentation is that with the smallest penalty, to two digits, for which at most ten steps are guaranteed. If it is
 /// too large for the multiplier, no penalty of the range has this guarantee, except for the digits.
 fn augmentation_takes_at_most_ten_steps<T: Float + ExactText>(case: &Case<T>) {
-    let (numbers, tol, eta) = (case.system.map(exact), exact(&case.tolerance), case.eta());
+    let (numbers, tol, eta) = (case.system.as_ref().map(exact), exact(&case.tolerance), case.eta());
     let takes_ten_steps = |eps: &Exact| {
         let most = guaranteed_max_augmentations(&numbers, eps, &tol, &eta).unwrap();
         most.is_some_and(|most| most <= 10)

@@ -237,15 +237,13 @@ fn tag(kinds: &str) -> Result<Regex> {
 
 // The Rust snippets of the pages are compiled and run as documentation tests.
 macro_rules! pages {
-    (@name $page:ident) => { stringify!($page) };
-    (@name $page:ident $name:literal) => { $name };
-    ($($page:ident $(= $name:literal)?)*) => {
+    ($($page:ident)*) => {
         /// File names of the pages, without `.md`.
-        pub const PAGES: &[&str] = &[$(pages!(@name $page $($name)?)),*];
+        pub const PAGES: &[&str] = &[$(stringify!($page)),*];
         #[cfg(doctest)]
         mod snippets {
             $(
-                #[doc = include_str!(concat!("../../src/", pages!(@name $page $($name)?), ".md"))]
+                #[doc = include_str!(concat!("../../src/", stringify!($page), ".md"))]
                 mod $page {}
             )*
         }
@@ -253,6 +251,6 @@ macro_rules! pages {
 }
 pages! {
     introduction notation system structure contact formulations lagrange penalty augmented unilateral
-    convergence comparison penalty_choice = "penalty-choice" stalls elements command check solvers beyond loose floats proofs
+    convergence comparison choice stalls elements command check solvers beyond loose floats proofs
     sources teaching
 }
