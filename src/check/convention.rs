@@ -21,8 +21,9 @@ struct Returned {
 pub(super) struct Convention([Returned; 2]);
 
 impl Returned {
-    /// Returns signs, units, and the sum that most answers have: each if several answers are right with it, and several are
-    /// clearly different. (With any factor, other mistakes would have the same results.)
+    /// Returns signs, units, and the sum that most answers have: each if several answers are right with it, and several,
+    /// which are most of those that it changes clearly, are nearer. (With any factor, other mistakes would have the same
+    /// results.)
     fn candidates(i: usize, answers: &[&Observation], fit: &Exact) -> Vec<Self> {
         let numbers = answers.iter().filter_map(|answer| {
             Some((answer.numbers()[i].clone()?, answer.exact(i).clone(), fit * &answer.scales[i]))
@@ -35,15 +36,17 @@ impl Returned {
         let mut all: Vec<_> =
             (0..).zip(factors).map(|(rank, (factor, sum))| Returned { factor, sum, rank }).collect();
         all.retain(|returned| {
-            let [mut near, mut changed] = [0; 2];
+            let [mut near, mut nearer, mut changed] = [0; 3];
             for (number, exact, most) in &numbers {
                 let undone = returned.undo(number);
+                let error = (&undone - exact).abs();
                 // Any factor gives 0 for 0.
-                let is_telling = returned.rank < 2 || !exact.is_zero();
-                near += usize::from(is_telling && (&undone - exact).abs() <= *most);
-                changed += usize::from((undone - number).abs() > Exact::from(100) * most);
+                near += usize::from((returned.rank < 2 || !exact.is_zero()) && error <= *most);
+                let is_changed = (undone - number).abs() > Exact::from(100) * most;
+                changed += usize::from(is_changed);
+                nearer += usize::from(is_changed && error < (number - exact).abs());
             }
-            near >= INFORMATIVE && (returned.rank == 0 || changed >= INFORMATIVE)
+            near >= INFORMATIVE && (returned.rank == 0 || nearer >= INFORMATIVE && 2 * nearer > changed)
         });
         all
     }
