@@ -8,7 +8,7 @@ use super::scales::{decimal, format_short};
 use crate::number::{Exact, PositivePart};
 use num_traits::{One, Zero};
 
-/// What is returned for u or N: a multiple of it, or a sum with it.
+/// A number that is returned for u or N: a multiple of it, or its sum with a constant.
 #[derive(Clone)]
 struct Returned {
     factor: Exact,
@@ -17,7 +17,7 @@ struct Returned {
     rank: usize,
 }
 
-/// What is returned for u and N.
+/// The numbers that are returned for u and N.
 pub(super) struct Convention([Returned; 2]);
 
 impl Returned {

@@ -108,7 +108,7 @@ float! {
     of two: powf log max min abs_sub hypot atan2;
 }
 
-/// A part is no value, and a number of more than 64 bits is not decoded.
+/// A part is not the value, and a number of more than 64 bits is not decoded.
 #[test]
 fn a_number_that_is_decoded_in_part_has_no_exact_value() {
     let third = 1.0 / 3.0;
