@@ -21,8 +21,8 @@ struct Returned {
 pub(super) struct Convention([Returned; 2]);
 
 impl Returned {
-    /// Returns signs, units, and the sum that most answers have: each if several answers are right with it, and several,
-    /// which are most of those that it changes clearly, are nearer. (With any factor, other mistakes would have the same
+    /// Returns signs, units, and the sum that most answers have: each if several answers are right with it, and of those
+    /// that it changes clearly several more are nearer than farther. (With any factor, other mistakes would have the same
     /// results.)
     fn candidates(i: usize, answers: &[&Observation], fit: &Exact) -> Vec<Self> {
         let numbers = answers.iter().filter_map(|answer| {
@@ -36,17 +36,16 @@ impl Returned {
         let mut all: Vec<_> =
             (0..).zip(factors).map(|(rank, (factor, sum))| Returned { factor, sum, rank }).collect();
         all.retain(|returned| {
-            let [mut near, mut nearer, mut changed] = [0; 3];
+            let (mut near, mut gain) = (0, 0);
             for (number, exact, most) in &numbers {
                 let undone = returned.undo(number);
                 let error = (&undone - exact).abs();
                 // Any factor gives 0 for 0.
                 near += usize::from((returned.rank < 2 || !exact.is_zero()) && error <= *most);
                 let is_changed = (undone - number).abs() > Exact::from(100) * most;
-                changed += usize::from(is_changed);
-                nearer += usize::from(is_changed && error < (number - exact).abs());
+                gain += isize::from(is_changed) * if error < (number - exact).abs() { 1 } else { -1 };
             }
-            near >= INFORMATIVE && (returned.rank == 0 || nearer >= INFORMATIVE && 2 * nearer > changed)
+            near >= INFORMATIVE && (returned.rank == 0 || gain >= INFORMATIVE as isize)
         });
         all
     }

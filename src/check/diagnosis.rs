@@ -54,10 +54,6 @@ impl<'a> Search<'a> {
 
     /// Returns all explanations of one kind, the first one of which explains all answers.
     pub fn of_all(&self, answers: &[&Observation]) -> Vec<Explanation> {
-        // Wrong answers refute most mistakes.
-        let mut answers = answers.to_vec();
-        answers.sort_by_key(|answer| !answer.is_wrong());
-        let answers = &answers[..];
         if !self.is_informative(answers) {
             let found = self.roundings(answers);
             return if found.is_empty() { self.stopped_early(answers) } else { found };

@@ -19,7 +19,7 @@ pub struct ApparentPenalty {
 impl ApparentPenalty {
     /// Returns the penalty of the answers if all in which rounding does not hide p penetrate the plane in equilibrium.
     pub(super) fn of(wrong: &[&Observation]) -> Option<Self> {
-        let (mut penalties, mut by_c) = (Vec::new(), Vec::new());
+        let mut penalties = Vec::new();
         for answer in wrong {
             let system = &answer.problem.system;
             let [Some(u), Some(n)] = answer.numbers() else { return None };
@@ -36,12 +36,12 @@ impl ApparentPenalty {
             if p <= Exact::zero() || *n <= Exact::zero() || !is_balanced {
                 return None;
             }
-            penalties.push(n / &p);
-            by_c.push(n / &p / &system.c);
+            penalties.push([n / &p, n / &p / &system.c]);
         }
-        let in_units = [("N/m", penalties), ("c", by_c)].into_iter().filter_map(|(unit, all)| {
-            let range = [all.iter().min()?, all.iter().max()?].map(|x| short(x, 6));
-            (all.len() >= INFORMATIVE).then_some(ApparentPenalty { unit, range })
+        let in_units = (0..).zip(["N/m", "c"]).filter_map(|(i, unit): (usize, _)| {
+            let all = penalties.iter().map(|in_units| &in_units[i]);
+            let range = [all.clone().min()?, all.max()?].map(|x| short(x, 6));
+            (penalties.len() >= INFORMATIVE).then_some(ApparentPenalty { unit, range })
         });
         in_units.min_by_key(|found| &found.range[1] / &found.range[0])
     }

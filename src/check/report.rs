@@ -107,7 +107,9 @@ impl Report {
         let results = self.results.iter().enumerate();
         let answers: Vec<_> = results.filter_map(|(i, of)| Observation::of(i, of, tolerance)).collect();
         self.diagnosis.extend(lag(&answers));
-        let all: Vec<_> = answers.iter().collect();
+        let mut all: Vec<_> = answers.iter().collect();
+        // They refute most mistakes.
+        all.sort_by_key(|answer| !answer.is_wrong());
         let fitting = search.of_all(&all);
         let (wrong, mut right): (Vec<_>, Vec<_>) = all.iter().partition(|answer| answer.is_wrong());
         if !fitting.is_empty() || wrong.len() < INFORMATIVE || !self.changed.is_empty() {

@@ -18,10 +18,9 @@ const DIGITS: usize = 6;
 
 /// Returns the report with what is checked and the options.
 pub fn report(of: &Subject, options: &Options, report: &Report) -> impl Serialize {
-    let name = |kind| Some(of.name.clone()).filter(|_| of.kind == kind);
     record! {
-        program: name("program"),
-        answers: name("answers"),
+        program: (of.kind == "program").then(|| of.name.clone()),
+        answers: (of.kind == "answers").then(|| of.name.clone()),
         missing: of.missing.iter().map(|problem| problem.id.clone()).collect::<Vec<_>>(),
         seed: options.drawn.seed,
         tolerance: format_exact(&options.tolerance.value),
