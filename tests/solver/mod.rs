@@ -7,6 +7,7 @@ mod every_f32;
 mod functionals;
 mod invariances;
 mod laws;
+mod lossy;
 mod native;
 mod penalty;
 mod planted;

@@ -29,7 +29,6 @@ mod exact;
 mod floats;
 mod format;
 mod laws;
-mod lossy;
 mod mpfr;
 mod spellings;
 mod system;

@@ -1,7 +1,9 @@
 //! Floats whose `integer_decode` returns only a part of a number.
 
 use num_traits::{Float, Num, NumCast, One, ToPrimitive, Zero};
-use provable::number::{Native, NonFiniteError, ToExact};
+use spring_mass_contact::chapter::SpringMass;
+use spring_mass_contact::number::{Native, NonFiniteError, ToExact};
+use spring_mass_contact::solver::{Method, laws, solve};
 use std::num::FpCategory;
 use std::ops::{Add, Div, Mul, Neg, Rem, Sub};
 
@@ -115,4 +117,18 @@ fn a_number_that_is_decoded_in_part_has_no_exact_value() {
     assert_eq!(Native(Lossy::<53>(0.75)).to_exact(), 0.75.to_exact());
     assert_eq!(Native(Lossy::<53>(third)).to_exact(), Err(NonFiniteError::Incomplete));
     assert_eq!(Native(Lossy::<106>(0.75)).to_exact(), Err(NonFiniteError::Incomplete));
+}
+
+/// `solve` names the first parameter without an exact value, and the laws of scalars name what requires it.
+#[test]
+fn a_number_without_exact_value_is_refused() {
+    let system = SpringMass { c: 100.0, m: 1.0, g: 9.81, l: 1.0, h: 1.05 }.map(Lossy::<53>).map(Native);
+    let refused = solve(&system, &Method::Lagrange).unwrap_err().to_string();
+    assert_eq!(
+        refused,
+        "gravity Lossy(9.81): must be of a type whose integer_decode returns the whole number"
+    );
+    let samples = [0.0, 1.0, 1.0 / 3.0].map(Lossy::<53>).map(Native);
+    let violation = laws::check_scalar_laws(&samples, |x| x.0.0.to_exact().unwrap()).unwrap_err();
+    assert_eq!(violation.law, laws::ScalarLaw::SignOfSum);
 }
