@@ -16,6 +16,7 @@ use crate::formula::Notation;
 use crate::number::{Exact, PositivePart, ToExact};
 use num_traits::{One, Zero};
 use rug::float::Round;
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 /// Default number of systems in each family: sufficient to distinguish most mistakes.
@@ -137,7 +138,10 @@ impl<'a> Search<'a> {
             return self.explains_all(mistake, None, answers).then_some(None);
         }
         let samples = wrong.iter().step_by(wrong.len().div_ceil(SAMPLES).max(1));
-        let mut numbers = samples.flat_map(|answer| estimates(mistake, answer)).filter(|k| !k.is_zero());
+        // A penalty is positive.
+        let may_be_negative = !mistake.name.contains("ε = {k}");
+        let is_possible = |k: &Exact| *k > Exact::zero() || may_be_negative && !k.is_zero();
+        let mut numbers = samples.flat_map(|answer| estimates(mistake, answer)).filter(is_possible);
         let explains = |k: &Exact| self.explains_all(mistake, Some(k), answers);
         let k = numbers.find(explains)?;
         // Answers of few digits determine it roughly, and it is probably a round number.
@@ -188,7 +192,7 @@ impl<'a> Search<'a> {
     /// Returns the right program, or the wrong ones, that give all answers up to an error that is similar in most.
     fn stopped_early(&self, answers: &[&Observation]) -> Vec<Explanation> {
         let right = &Mistake::new("the formulas are right", self.reference.program());
-        let mut found: Vec<(Vec<[Option<Exact>; 2]>, Explanation)> = Vec::new();
+        let mut found = BTreeMap::new();
         let is_wrong = answers.iter().filter(|answer| answer.is_wrong()).count() >= INFORMATIVE;
         for mistake in std::iter::once(right).chain(&*EDITS[self.reference as usize]).filter(|_| is_wrong) {
             let is_right = std::ptr::eq(mistake, right);
@@ -198,11 +202,9 @@ impl<'a> Search<'a> {
             if is_right {
                 return vec![Explanation::new(name, Vec::new())];
             }
-            if found.iter().all(|(known, _)| *known != results) {
-                found.push((results, Explanation::new(name, mistake.program.lines())));
-            }
+            found.entry(results).or_insert_with(|| Explanation::new(name, mistake.program.lines()));
         }
-        found.into_iter().map(|(_, found)| found).collect()
+        found.into_values().collect()
     }
 
     /// Returns the loss of digits that explains all answers.

@@ -7,9 +7,6 @@ use crate::number::{Exact, PositivePart};
 use crate::solver::State;
 use num_traits::Zero;
 
-/// Smallest ratio of an effect to an error that does not hide it, and largest ratio of similar errors.
-const CLEAR: i32 = 100;
-
 /// Largest number of digits that may be those of a table, so that they would explain an error.
 const PRINTED_DIGITS: usize = 12;
 
@@ -42,7 +39,8 @@ pub(super) fn common_error(program: &Program, is_right: bool, answers: &[&Observ
     let all = answers.iter().map(|answer| Some((*answer, deviation(answer, program).filter(is_small)?)));
     let all: Vec<_> = all.collect::<Option<_>>()?;
     let most = all.iter().flat_map(|(_, both)| both).map(|(_, error)| error).max()?;
-    let clear = Exact::from(CLEAR);
+    // Smallest ratio of an effect to an error that does not hide it, and largest ratio of similar errors.
+    let clear = Exact::from(100);
     let shows = |answer: &Observation, both: &Deviation, i: usize| {
         let error = &both[i].1;
         &clear * error >= *most && error * &answer.scales[i] > &clear * answer.rounding(i)

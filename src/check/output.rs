@@ -87,7 +87,7 @@ impl<'a> Output<'a> {
 
     fn factor(&self) -> Option<Deviation> {
         let largest = self.numbers.iter().max_by_key(|number| number.exact.abs() / number.scale)?;
-        let is_clear = self.is_clear(|number| number.exact.abs());
+        let is_clear = self.is_clear(|number| (number.number - number.exact).abs());
         is_clear.then(|| Deviation::Factor(largest.number / largest.exact))
     }
 

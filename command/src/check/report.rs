@@ -117,7 +117,7 @@ fn upper_bound(x: &Exact) -> String {
 /// Prints a system with a wrong answer.
 fn example(out: &mut dyn Write, result: &CaseResult) -> io::Result<()> {
     let CaseResult { problem, reply, assessment, .. } = result;
-    let system = problem.system.as_ref().map(format_exact).to_string();
+    let system = problem.system.as_ref().map(|x| shortened(&format_exact(x))).to_string();
     let penalty = problem.penalty.as_ref().map(|eps| format!(", ε = {} N/m", format_exact(eps)));
     let mut rows = vec![(&*problem.id, parts(&(system + &penalty.unwrap_or_default())))];
     if let Reply::Answered(answer) = reply {

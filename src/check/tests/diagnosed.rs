@@ -608,6 +608,16 @@ fn nothing_else_is_named() {
         assert!(!what.starts_with("errors") || report.conditions.is_empty(), "{:?}", report.conditions);
         nothing(what, report);
     }
+    // A factor has to be clear, and a penalty positive.
+    let separated = problems(1, 5, &[Family::Separated]);
+    let unequal: Change =
+        |problem, u, n| [u * number(if problem.id.ends_with('1') { "1" } else { "1.0000095" }), n];
+    nothing("errors of 0 and 1e-5", changed_in(&separated, unequal));
+    let k = number("1.7e-5");
+    let negative = changed_in(&separated, |problem, u, n| {
+        [(u - &k * system::gap(&problem.system)) / (Exact::from(1) - &k), n]
+    });
+    assert!(names(&negative).iter().all(|name| !name.contains('ε')), "{:?}", names(&negative));
     nothing("no numbers", run(&default_problems(), |_| Answer::default()));
     let missing = |problem: &Problem| {
         let [u, n] = held(&problem.system);
