@@ -26,11 +26,16 @@ fn exponent<T: Float>(mut x: T) -> i32 {
 }
 
 impl<T: Float + Debug> Native<T> {
+    /// Returns the number of binary digits of a normal number.
+    fn bits() -> u32 {
+        (1 - exponent(T::epsilon())).max(1).unsigned_abs()
+    }
+
     fn format() -> FloatFormat {
         let name = std::any::type_name::<T>();
         FloatFormat {
             name: name.rsplit_once("::").filter(|_| !name.contains('<')).map_or(name, |(_, last)| last),
-            bits: (1 - exponent(T::epsilon())).max(1).unsigned_abs(),
+            bits: Self::bits(),
             exponents: [T::min_positive_value(), T::max_value()].map(exponent),
         }
     }
@@ -82,7 +87,7 @@ impl<T: Float + Debug> ToExact for Native<T> {
             let sign = if self.0 > T::zero() { 1.0 } else { -1.0 };
             return Err(NonFiniteError::of(if self.0.is_nan() { f64::NAN } else { f64::INFINITY * sign }));
         }
-        if Self::format().bits > u64::BITS {
+        if Self::bits() > u64::BITS {
             return Err(NonFiniteError::Incomplete);
         }
         let (mantissa, exponent, sign) = self.0.integer_decode();
@@ -106,7 +111,7 @@ impl<T: Float + Debug> ExactText for Native<T> {
     fn text(&self) -> String {
         let Ok(x) = self.to_exact() else { return format!("{:?}", self.0) };
         // As many digits as distinguish any two numbers; the shorter decimal is then written without a power of ten.
-        let most = 2 + Self::format().bits as usize / 3;
+        let most = 2 + Self::bits() as usize / 3;
         // Below a power of two numbers are closer, so one side of a tie can be the same float, the other not.
         let sides = [Round::Nearest, Round::Down, Round::Up];
         let shorter = (1..most).flat_map(|digits| sides.map(|side| x.decimal(digits, side).parse::<Exact>()));
