@@ -208,17 +208,8 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
     /// preserve the digits of the multiplier, returns the largest penalty that does, or the smallest that needs
     /// at most [`MAX_AUGMENTATIONS`] if it is larger.
     fn recommend_augmentation(&self, direct_eps: &Exact, all_suffice: bool) -> Option<Recommendation<T>> {
-        let takes_at_most = |limit: u64, eps: &Exact| {
-            let count = match &self.arithmetic {
-                Arithmetic::Rounded(laws) => {
-                    laws.max_augmentations(eps, &self.exact_tolerance).ok().flatten()
-                }
-                Arithmetic::Exact | Arithmetic::Separated => self.exact_count(eps),
-            };
-            count.is_some_and(|k| k <= limit)
-        };
-        let is_quick = |eps: &Exact| takes_at_most(RECOMMENDED_AUGMENTATIONS, eps);
-        let is_admissible = |eps: &Exact| takes_at_most(MAX_AUGMENTATIONS, eps);
+        let is_quick = |eps: &Exact| self.takes_at_most(RECOMMENDED_AUGMENTATIONS, eps);
+        let is_admissible = |eps: &Exact| self.takes_at_most(MAX_AUGMENTATIONS, eps);
         let max = match &self.arithmetic {
             Arithmetic::Rounded(laws) => laws.max_penalty_for_multiplier(&self.exact_tolerance),
             Arithmetic::Exact | Arithmetic::Separated => None,
@@ -248,6 +239,15 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
             max_augmentations: MAX_AUGMENTATIONS,
             start: T::zero(),
         })
+    }
+
+    /// Returns `true` if at most `limit` augmentations with this penalty are guaranteed to meet the tolerance.
+    fn takes_at_most(&self, limit: u64, eps: &Exact) -> bool {
+        let count = match &self.arithmetic {
+            Arithmetic::Rounded(laws) => laws.max_augmentations(eps, &self.exact_tolerance).ok().flatten(),
+            Arithmetic::Exact | Arithmetic::Separated => self.exact_count(eps),
+        };
+        count.is_some_and(|k| k <= limit)
     }
 
     /// Returns the number of augmentations in exact arithmetic, unless it has too many digits.
