@@ -3,31 +3,21 @@
 use num_traits::{Float, Num, NumCast, One, ToPrimitive, Zero};
 use spring_mass_contact::chapter::SpringMass;
 use spring_mass_contact::number::{Native, NonFiniteError, ToExact};
+use spring_mass_contact::operators;
 use spring_mass_contact::solver::{Method, laws, solve};
 use std::num::FpCategory;
-use std::ops::{Add, Div, Mul, Neg, Rem, Sub};
 
 /// An f64 of which 24 bits are decoded, and whose precision is that of `EPSILON`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 struct Lossy<const BITS: i32>(f64);
 
-macro_rules! operators {
-    ($($Trait:ident $method:ident)+) => {$(
-        impl<const BITS: i32> $Trait for Lossy<BITS> {
-            type Output = Self;
-            fn $method(self, other: Self) -> Self {
-                Lossy(self.0.$method(other.0))
-            }
-        }
-    )+};
-}
-operators! { Add add Sub sub Mul mul Div div Rem rem }
-
-impl<const BITS: i32> Neg for Lossy<BITS> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Lossy(-self.0)
-    }
+operators! { [const BITS: i32] Lossy<BITS>;
+    Add add |a, b| Lossy(a.0 + b.0);
+    Sub sub |a, b| Lossy(a.0 - b.0);
+    Mul mul |a, b| Lossy(a.0 * b.0);
+    Div div |a, b| Lossy(a.0 / b.0);
+    Rem rem |a, b| Lossy(a.0 % b.0);
+    - |a| Lossy(-a.0)
 }
 impl<const BITS: i32> Zero for Lossy<BITS> {
     fn zero() -> Self {
