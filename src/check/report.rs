@@ -108,7 +108,7 @@ impl Report {
         let answers: Vec<_> = results.filter_map(|(i, of)| Observation::of(i, of, tolerance)).collect();
         self.diagnosis.extend(lag(&answers));
         let mut all: Vec<_> = answers.iter().collect();
-        // They refute most mistakes.
+        // Wrong answers refute most mistakes.
         all.sort_by_key(|answer| !answer.is_wrong());
         let fitting = search.of_all(&all);
         let (wrong, mut right): (Vec<_>, Vec<_>) = all.iter().partition(|answer| answer.is_wrong());

@@ -245,7 +245,7 @@ impl RoundingLaws {
         count(&self.system, eps, &margin, &Exact::zero(), Plane::Bilateral).map(Some)
     }
 
-    // Section "The rounding floor".
+    // Section "For a large penalty".
 
     /// Returns the penalties for which (1.13) meets a tolerance, up to the largest one for which rounding
     /// changes the force ε p by no more than the tolerance allows. Returns `None` if no penalty suffices.

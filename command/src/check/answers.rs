@@ -12,8 +12,8 @@ use std::io::{self, Read};
 /// Largest number of bytes of a table.
 const MAX_BYTES: u64 = 1 << 28;
 
-/// The formats.
-const CSV: &str = "columns are named in the first line and separated by commas, numbers have a decimal point, and JSON has \
+/// The formats that are read, in a message.
+const FORMATS: &str = "columns are named in the first line and separated by commas, numbers have a decimal point, and JSON has \
                    an object on each line";
 
 /// Answers with their problems, and the systems without an answer.
@@ -56,7 +56,7 @@ fn table(text: &str, drawn: Vec<Problem>) -> Result<Table, String> {
         }
     }
     if answers.is_empty() {
-        return Err(format!("no row has an id, a deflection and a contact_force; {CSV}"));
+        return Err(format!("no row has an id, a deflection and a contact_force; {FORMATS}"));
     }
     // A table of other systems does not answer any of these.
     let mut problems = answers.iter().map(|(problem, _)| problem).chain(&missing);
@@ -82,14 +82,14 @@ fn text(path: &str) -> Result<String, String> {
 
 /// Returns the rows of CSV as lines of JSON with those columns that are read, without empty cells, and their numbers.
 fn csv_lines(text: &str) -> Result<Vec<(usize, String)>, String> {
-    let refused = |error: csv::Error| format!("{error}; {CSV}");
+    let refused = |error: csv::Error| format!("{error}; {FORMATS}");
     let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
     let names = csv.headers().map_err(refused)?.clone();
     let answer = ["id", "deflection", "contact_force", "penetration"];
     let read = [&answer[..], &SpringMass::KEYS.into_array()].concat();
     if !names.iter().any(|name| name == "id") {
         let first = shortened(text.lines().next().unwrap_or_default());
-        return Err(format!("the first line '{first}' must name the column id; {CSV}"));
+        return Err(format!("the first line '{first}' must name the column id; {FORMATS}"));
     }
     let (mut lines, mut line, mut before) = (Vec::new(), 1, text);
     for row in csv.records() {

@@ -12,7 +12,8 @@ use std::fmt;
 /// `integer_decode` have to be those of a binary format with subnormal numbers and 8 to 64 bits. A type of more
 /// bits, or whose `integer_decode` returns only a part of a number, computes, but has no exact values, and is
 /// refused where they are required: `TwoFloat` of the crate `twofloat` 0.8, for example, a sum of two f64s, which
-/// neither rounds to nearest nor can be decoded. A system of your own can then state its bounds. `Native<f64>` gives the same bits as `f64`.
+/// neither rounds to nearest nor can be decoded. A system of your own can then state its bounds. `Native<f64>` gives the
+/// same bits as `f64`.
 ///
 /// # Examples
 ///
