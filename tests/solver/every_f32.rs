@@ -2,7 +2,7 @@
 //! refused by name, and the bounds contain the exact solution.
 //!
 //! ```sh
-//! F32_STRIDE=1009 cargo test --release --test all every_f32
+//! F32_STRIDE=1009 cargo test --release --package spring-mass-contact --test all every_f32
 //! ```
 //! tests every 1009th bit pattern. A stride of 1, which takes hours, tests all; an odd one also varies the last bits.
 //!
