@@ -41,6 +41,7 @@ pub use assessment::{AnswerVerdict, Assessment, CaseResult};
 pub use condition::{FailureCondition, Threshold, ThresholdQuantity};
 pub use diagnosis::CASES;
 pub use explanation::{Diagnosis, DiagnosisScope};
+pub use observation::INFORMATIVE;
 pub use penalty::ApparentPenalty;
 pub use problems::{DIGITS, Family, Problem, UnknownFamily, problems};
 use program::Reference;

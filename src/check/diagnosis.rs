@@ -209,14 +209,15 @@ impl<'a> Search<'a> {
 
     /// Returns the loss of digits that explains all answers.
     fn roundings(&self, answers: &[&Observation]) -> Vec<Explanation> {
-        let is_wrong = answers.iter().any(|answer| answer.is_wrong());
-        if !is_wrong || answers.iter().filter(|answer| !answer.is_right()).count() < INFORMATIVE {
+        let wrong = answers.iter().filter(|answer| answer.is_wrong()).count();
+        if wrong == 0 || answers.iter().filter(|answer| !answer.is_right()).count() < INFORMATIVE {
             return Vec::new();
         }
         let found = few_digits(answers, &self.fit).or_else(|| {
             let is_single = answers.iter().all(|answer| answer.is_single());
             let single = is_single.then(|| "it computes in single precision".to_string());
-            let name = single.or_else(|| rounded_parameters(answers, self.tolerance))?;
+            let parameters = || rounded_parameters(answers, self.tolerance).filter(|_| wrong >= INFORMATIVE);
+            let name = single.or_else(parameters)?;
             Some(Explanation::new(name, Vec::new()))
         });
         found.into_iter().collect()

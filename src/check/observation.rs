@@ -13,7 +13,7 @@ use std::cell::OnceCell;
 
 /// Number of answers required to distinguish a mistake from the right formulas: one or two could differ by
 /// chance, and one determines a number.
-pub(super) const INFORMATIVE: usize = 3;
+pub const INFORMATIVE: usize = 3;
 
 /// An answer with its problem.
 pub(super) struct Observation<'a> {

@@ -176,7 +176,7 @@ pub(super) fn few_digits<'a>(answers: &[&'a Observation<'a>], fit: &'a Exact) ->
     searches.into_iter().find_map(|searches| deviations(answers, fit, searches))
 }
 
-/// Returns the largest error of u in m, of N in N, and of their equilibrium in N: each if several are almost as large
+/// Returns the largest error of u in m, of N in N, and of their equilibrium in N: each if most are almost as large
 /// although the scales of their systems differ by a factor of a thousand.
 pub(super) fn absolute_bounds(wrong: &[&Observation], tolerance: &Exact) -> [Option<Exact>; 3] {
     [0, 1, 2].map(|i| {
@@ -194,13 +194,14 @@ fn residual(answer: &Observation) -> Option<Exact> {
     Some(contact::equilibrium(&answer.problem.system, u, n).abs())
 }
 
-/// Returns the largest of errors with their scales, if several are almost as large although the scales differ by a
-/// factor of a thousand.
+/// Returns the largest of errors with their scales, if most are almost as large although the scales differ by a factor
+/// of a thousand.
 fn absolute_bound(errors: &[(Exact, &Exact)], tolerance: &Exact) -> Option<Exact> {
     let (most, _) = errors.iter().max()?;
     let wrong = errors.iter().filter(|(error, scale)| *error > tolerance * *scale).count();
     let large = errors.iter().filter(|(error, _)| error * Exact::from(10) >= *most);
     let scales: Vec<_> = large.map(|(_, scale)| *scale).collect();
     let is_spread = **scales.iter().max()? >= Exact::from(1000) * *scales.iter().min()?;
-    (is_spread && scales.len() >= INFORMATIVE && wrong >= INFORMATIVE).then(|| most.clone())
+    let is_common = scales.len() >= INFORMATIVE && 2 * scales.len() > errors.len();
+    (is_spread && is_common && wrong >= INFORMATIVE).then(|| most.clone())
 }

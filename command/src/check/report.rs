@@ -5,8 +5,8 @@ use crate::args::{Number, format_exact};
 use crate::lines::NO_BREAK_SPACE;
 use crate::output::{self, counted, shortened};
 use spring_mass_contact::check::{
-    Answer, AnswerVerdict, ApparentPenalty, CaseResult, Diagnosis, DiagnosisScope, FamilyResult, Problem,
-    Reply, Report, Threshold, ThresholdQuantity, VerdictCounts,
+    Answer, AnswerVerdict, ApparentPenalty, CaseResult, Diagnosis, DiagnosisScope, FamilyResult, INFORMATIVE,
+    Problem, Reply, Report, Threshold, ThresholdQuantity, VerdictCounts,
 };
 use spring_mass_contact::number::Exact;
 use spring_mass_contact::rug::float::Round;
@@ -226,8 +226,12 @@ fn unexplained(report: &Report) -> Option<String> {
         || report.lag().is_some()
         || !(report.conditions.is_empty() && report.changed.is_empty() && report.carried_over.is_empty())
         || report.absolute_bounds.iter().any(Option::is_some);
-    (report.results.iter().any(is_wrong) && !explained)
-        .then(|| "No single mistake that is searched for explains the wrong answers.".to_string())
+    let text = match report.results.iter().filter(|result| is_wrong(result)).count() {
+        0 => return None,
+        1..INFORMATIVE => "Fewer than three wrong answers do not determine a mistake.",
+        _ => "No single mistake that is searched for explains the wrong answers.",
+    };
+    (!explained).then(|| text.to_string())
 }
 
 /// Describes wrong answers that have a penalty each.

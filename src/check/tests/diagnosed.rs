@@ -665,6 +665,24 @@ fn two_answers_show_nothing() {
     assert!(named(&three[..2], more).is_empty() && named(&three[..1], more).is_empty());
 }
 
+/// The only wrong answer is that for H = 1000.05 in single precision; all numbers have ten digits.
+#[test]
+fn a_rounded_parameter_takes_three_wrong_answers() {
+    let name_if = |wrong: usize| {
+        let all = [0, 1, 2, 3].map(|i| {
+            let [l, h] = if i < wrong { ["1000", "1000.05"] } else { ["1000", "1000.0625"] };
+            problem(&i.to_string(), Family::Contact, ["100", &format!("1.{i}2345678901"), "10", l, h])
+        });
+        let report = changed_in(&all, |problem, _, _| {
+            let single = |x: &Exact| x.to_f32().unwrap().to_exact().unwrap();
+            with_lengths(&problem.system, single).map(|x| rounded(&x, 10))
+        });
+        assert_eq!(report.summary().wrong, wrong);
+        names(&report).concat()
+    };
+    assert_eq!([1, 2, 3].map(name_if), ["", "", "l and H are rounded to single precision"]);
+}
+
 /// A wrong decision is noticed from the force on that the report on a right solver states.
 #[test]
 fn a_wrong_decision_is_noticed_from_the_stated_force_on() {

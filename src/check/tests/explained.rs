@@ -203,3 +203,12 @@ fn similar_absolute_errors_of_different_systems_are_a_bound() {
     assert_eq!(bound(["1", "1000", "1"], ["1.5e-4", "1.5e-4", "1.5e-4"]), None);
     assert_eq!(bound(["1", "1000", "1"], ["1.6e-4", "1.6e-4", "1.6e-4"]), of("1.6e-4"));
 }
+
+/// The errors of a table whose rows are shifted are of all sizes.
+#[test]
+fn shifted_rows_have_no_absolute_bound() {
+    let all = default_problems();
+    let next: HashMap<_, _> = all.iter().zip(all.iter().cycle().skip(1)).map(|(a, b)| (&a.id, b)).collect();
+    let report = run(&all, |problem| right(next[&problem.id]));
+    assert!(report.diagnosis.is_empty() && report.absolute_bounds == [None, None, None], "{report:?}");
+}

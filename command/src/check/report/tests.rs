@@ -111,6 +111,9 @@ fn what_nothing_explains_is_said() {
         Answer::new(u, force)
     });
     assert_says(&twice, UNEXPLAINED);
+    let wrong = |count: usize| report(&all()[..count], |_| Answer::new(number("12345"), number("6789")));
+    assert_says(&wrong(2), "Fewer than three wrong answers do not determine a mistake.");
+    assert_says(&wrong(3), UNEXPLAINED);
     // The example says what is wrong.
     assert_says(&replied(&all(), |_| Reply::InvalidResponse("no key".into())), "no key");
 }
