@@ -206,8 +206,10 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Tria
     if !rounding_claims::in_range(x) || !rounding_claims::in_range(&scaled) || !comes_back {
         return Trial::Undecided;
     }
-    match [x, &scaled].map(|x| solve(&x.system, &by_augmentation(x))) {
-        [Ok(before), Ok(after)] => Trial::Decided(
+    let solved =
+        [x, &scaled].map(|x| solve(&x.system, &by_augmentation(x)).ok().filter(|of| ends_in_range(x, of)));
+    match solved {
+        [Some(before), Some(after)] => Trial::Decided(
             after.outcome == before.outcome
                 && after.augmentations == before.augmentations
                 && after.deflection == scale(&before.deflection, length)
@@ -216,6 +218,12 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Tria
         ),
         _ => Trial::Undecided,
     }
+}
+
+/// Returns `true` if the step after the last one has neither underflow nor overflow. (For R = 0, λ tends to 0.)
+fn ends_in_range<T: Scalar + Real + ToExact>(x: &Case<T>, solution: &Solution<T>) -> bool {
+    let last = |lambda: &T| Case { lambda: lambda.clone(), ..x.clone() };
+    solution.multiplier.as_ref().is_none_or(|lambda| rounding_claims::in_range(&last(lambda)))
 }
 
 /// Returns the exponent of two of the unit of a quantity, from those of length, mass and force.

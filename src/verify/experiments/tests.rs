@@ -128,4 +128,8 @@ fn cases_that_lose_digits_by_a_change_of_units_are_undecided() {
     assert_eq!(units(&with(two(-74), 1.5 * two(-500), 1.5 * two(427)), solve_bilateral), RIGHT);
     assert_eq!(units(&with(two(-74), 3.0 * two(-1074), two(1000)), solve_bilateral), Trial::Undecided);
     assert_eq!(units(&with(two(-1020), two(-500), 1.5 * two(-523)), solve_bilateral), Trial::Undecided);
+    // λ is halved 20 times; its last 53 bits are below 2⁻¹⁰⁷⁴.
+    let system = SpringMass { c: two(-500), m: 1.0, g: 0.0, l: 0.0, h: 0.0 };
+    let vanishing = Case { system, eps: two(-500), lambda: two(-1010) / 3.0, tol: two(-530), ..case(8) };
+    assert_eq!(units(&vanishing, solve_bilateral), Trial::Undecided);
 }
