@@ -15,7 +15,7 @@ const position = ({ powers }, a) => (powers ? log10(a) : nearest(a, 53, -1074));
 
 // An entry of a legend.
 const key = (of, name) => `<span><svg viewBox="0 0 28 14" aria-hidden="true">${of}</svg>${name}</span>`;
-const live = fields => `
+const live = (fields, isPenalty) => `
 <div class="bench-plots">
 <div class="bench-views">
   <svg class="bench-system" role="group" aria-label="The system; the plane can be moved">
@@ -28,7 +28,7 @@ const live = fields => `
   ${key('<path class="bench-spring" d="M0 3L28 11"/>', "equilibrium, <i>c p</i> + <i>N</i> = <i>R</i>")}
   ${key('<path class="bench-spring bench-former" d="M0 3L28 11"/>', "before the last change")}
   ${key('<path class="bench-plane bench-corner" d="M0 12H14V0"/>', "contact")}
-  ${key('<path class="bench-iterate" stroke-dasharray="7 4" d="M0 12L28 2"/>', "<i>N</i> = <i>λ<sub>k</sub></i> + <i>ε p</i>")}
+  ${key('<path class="bench-iterate" stroke-dasharray="7 4" d="M0 12L28 2"/>', isPenalty ? "<i>N</i> = <i>ε p</i>" : "<i>N</i> = <i>λ<sub>k</sub></i> + <i>ε p</i>")}
   ${key('<path class="bench-iterate bench-thin" d="M4 13L20 7H4"/><circle class="bench-dot" cx="20" cy="7" r="3"/>', "the steps")}
 </div>
 </div>
@@ -219,7 +219,7 @@ const drawForces = (svg, { values, rows }, run, box, former = values) => {
   const at = ([p, n]) => [(p - left) / (right - left) * (width - 2) + 1, (high - n) / (high - low) * (height - 2) + 1];
   const line = (a, b, attributes, within = box) => path(clipped(a, b, within).map(at), attributes);
   const span = right - left, far = gap + span;
-  const [x0, y0] = at([0, 0]), [, y1] = at([0, reaction]), force = `R = ${brief(exactly(reaction))} N`;
+  const [x0, y0] = at([0, 0]), [, y1] = at([0, reaction]), force = `R = ${brief(exact["system::reaction"](inFractions(run)))} N`;
   const text = x => brief(exactly(x)), axes = [], texts = [];
   for (const x of ticks(left, right, Math.max(2, Math.floor(width / 90)))) {
     const [at_x] = at([x, 0]);
@@ -228,8 +228,7 @@ const drawForces = (svg, { values, rows }, run, box, former = values) => {
   }
   for (const x of ticks(low, high, Math.max(2, Math.floor(height / 50)))) {
     const [, at_y] = at([0, x]);
-    axes.push(path([[1, at_y], [5, at_y]], { class: "bench-thin" }));
-    if (x && at_y > 26 && at_y < height - 26) texts.push(label(8, at_y + 4, text(x), { class: "bench-tick" }));
+    if (x && at_y > 26 && at_y < height - 26) texts.push(label(4, at_y + 4, text(x), { class: "bench-tick" }));
   }
   texts.push(
     // Titles stand inside the drawing, on different sides of an axis at its edge.
@@ -318,7 +317,8 @@ const summary = (result, solved) => {
   const reaction = exact["system::reaction"](given), text = (a, unit) => `${brief(a)} ${unit}`;
   if (!solved) {
     const { p, next } = rows.at(-1), force = system.exactly(next);
-    return { kind: "penalty", text: `p = ${text(system.exactly(p), "m")} and N = ε p = ${text(force, "N")}, short of R by ${text(fractions.sub(reaction, force), "N")}.` };
+    const short = reaction.n > 0n ? `, short of R by ${text(fractions.sub(reaction, force), "N")}` : "";
+    return { kind: "penalty", text: `p = ${text(system.exactly(p), "m")} and N = ⟨ε p⟩ = ${text(force, "N")}${short}.` };
   }
   const p = exact["contact::penetration"]({ ...given, u: exact["contact::deflection"](given) });
   const kind = reaction.n > 0n ? "contact" : reaction.n ? "separated" : "grazing";
@@ -328,10 +328,11 @@ const summary = (result, solved) => {
 // A root with `data-fields` is a small figure with these fields alone, whose state is not in the address.
 const open = root => {
   const small = root.dataset.fields !== undefined, fields = small ? root.dataset.fields.split(" ") : Object.keys(FIELDS);
-  root.insertAdjacentHTML("beforeend", `<div class="bench-live">${live(fields)}</div>`);
+  root.insertAdjacentHTML("beforeend", `<div class="bench-live">${live(fields, root.dataset.k === "0")}</div>`);
   root.classList.add("live");
   const find = selector => root.querySelector(selector);
-  let question = small ? { ...EXAMPLE, k: Number(root.dataset.k) } : asked(location.search), result, view, domain, box, former, settled, length, held = false, width;
+  const initial = small ? { ...EXAMPLE, numbers: "exact", k: Number(root.dataset.k) } : EXAMPLE;
+  let question = small ? initial : asked(location.search), result, view, domain, box, former, settled, length, held = false, touched, width;
 
   const fill = () => {
     for (const key of fields) {
@@ -408,7 +409,7 @@ const open = root => {
     if (["fit", "reset"].includes(step)) domain = box = former = settled = undefined;
     if (step === "whole") change({}, true);
     else if (step === "fit") change({});
-    else if (step === "reset") change(small ? { ...EXAMPLE, k: question.k } : EXAMPLE);
+    else if (step === "reset") change(initial);
     else change({ k: step === "start" ? 0 : Math.max(0, (result?.rows.length ?? 1) - 1 + Number(step)) });
     keep();
   });
@@ -448,11 +449,19 @@ const open = root => {
   system.addEventListener("touchstart", event => {
     if (event.target.closest("[role=slider]")) event.preventDefault();
   }, { passive: false });
-  root.addEventListener("pointerdown", ({ target }) => { if (target.dataset.slide) held = true; });
+  root.addEventListener("pointerdown", ({ target }) => {
+    if (target.dataset.slide) [held, touched] = [true, question];
+  });
   for (const end of ["pointerup", "pointercancel"]) {
     addEventListener(end, () => {
       if (!held) return;
+      // A finger that scrolls the page has moved the slider that it touched.
+      if (end === "pointercancel" && touched) {
+        document.activeElement?.blur?.();
+        change(touched);
+      }
       dragged = held = false;
+      touched = undefined;
       keep();
     });
   }

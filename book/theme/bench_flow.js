@@ -2,7 +2,7 @@
 
 const FLOW = {
   eps: { name: "penalty <i>ε</i>", unit: " N/m", from: 0.1, to: 40, value: 4 },
-  x: { name: "step size <i>x</i>", unit: "", from: 0.1, to: 5, value: 1 },
+  x: { name: "step size <i>x</i>", unit: "", from: 0.1, to: 6, value: 1 },
 };
 const UNTIL = 8;
 

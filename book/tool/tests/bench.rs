@@ -518,8 +518,10 @@ const said = (fields, solved) => {
 const [enter, out] = said("g H", true);
 for (const g of ["10", "8", "4", "4,5"]) enter("g", g);
 const [soft, penalty] = said("eps", false);
-for (const eps of ["4", "0"]) soft("eps", eps);
-console.log(JSON.stringify([...out, ...penalty]));
+for (const eps of ["4", "1e20", "0"]) soft("eps", eps);
+const [raised, without] = said("H", false);
+raised("H", "4");
+console.log(JSON.stringify([...out, ...penalty, ...without]));
 "#;
     let found = node(&format!("{DOCUMENT}{SAID}"), &json!({ "script": script().unwrap() }));
     let said: Vec<String> = from_str(&found).unwrap();
@@ -528,8 +530,10 @@ console.log(JSON.stringify([...out, ...penalty]));
         "grazing. R = 0 N, so p = 0 m and N = 0 N.",
         "separated. R = −4 N, so p = −1 m and N = 0 N.",
         "g: not a number such as 0.05, 5e-2 or 1/20.",
-        "penalty. p = 0.25 m and N = ε p = 1 N, short of R by 1 N.",
+        "penalty. p = 0.25 m and N = ⟨ε p⟩ = 1 N, short of R by 1 N.",
+        "penalty. p = 2·10⁻²⁰ m and N = ⟨ε p⟩ = 2 N, short of R by 8·10⁻²⁰ N.",
         "ε: not greater than 0.",
+        "penalty. p = −0.5 m and N = ⟨ε p⟩ = 0 N.",
     ];
     assert_eq!(said, expected);
 }
@@ -539,7 +543,8 @@ const STUB: &str =
     "const document = { createElementNS: (space, name) => new Element(name), querySelectorAll: () => [] };";
 
 /// The axes of the force diagram stay, also after the plane was dragged; they change if the solution would leave them, or
-/// by their button. The line before the last change stays as a faint one. A finger on the plane does not scroll.
+/// by their button. The line before the last change stays as a faint one. A finger on the plane does not scroll, and one
+/// that scrolls does not move a slider.
 #[test]
 #[ignore = "requires node"]
 fn axes_stay_while_the_plane_moves() {
@@ -560,7 +565,14 @@ const drag = clientY => { system.on.pointerdown(event); system.on.pointermove({ 
 const fit = { target: { dataset: { step: "fit" } } }, move = system.on.pointermove;
 const acts = [() => {}, () => drag(178), () => move({ clientY: 100 }), () => on.pointerup(),
   () => { drag(160); on.pointerup(); }, () => root.on.click(fit), () => { press("Home"); press("End"); }];
-console.log(JSON.stringify(acts.map(act => { act(); return seen(); })));
+const states = acts.map(act => { act(); return seen(); });
+const eps = { dataset: { slide: "eps" }, value: 3 }, field = find("[data-text=eps]"), before = field.value;
+root.on.pointerdown({ target: eps });
+root.on.input({ target: eps });
+if (field.value !== "1000") throw Error("a slider");
+on.pointercancel();
+if (field.value !== before) throw Error("a finger that scrolls");
+console.log(JSON.stringify(states));
 "#;
     let found = node(&format!("{DOCUMENT}{MOVED}"), &json!({ "script": script().unwrap() }));
     let [start, dragged, far, released, back, fitted, end]: [[String; 4]; 7] = from_str(&found).unwrap();
