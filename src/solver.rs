@@ -148,6 +148,13 @@ pub fn solve_observed<T: Scalar>(
     let reaction = system::reaction(&enclosed);
     let state = State::from_reaction(&reaction, system);
     let target = ExactSolution::of(&enclosed, reaction, method, state, plane);
+    match method {
+        Method::Lagrange => {}
+        Method::Penalty { .. } if target.free => {}
+        Method::Penalty { penalty } | Method::Augmented { penalty, .. } => {
+            validate::stiffness(system, penalty)?
+        }
+    }
     let bounds = target.bounds::<T>()?;
     let raw = match method {
         Method::Lagrange => {
@@ -171,7 +178,6 @@ pub fn solve_observed<T: Scalar>(
             RawSolution::direct(deflection, force)
         }
         Method::Augmented { penalty: eps, tolerance, max_augmentations, start } => {
-            validate::stiffness(system, eps)?;
             let steps = Augmentation::new(system, eps).with_multiplier(start.clone()).over(plane);
             iterate(steps, system, &enclosed, &target, tolerance, *max_augmentations, each)?
         }

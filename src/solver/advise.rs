@@ -58,9 +58,9 @@ pub struct Recommendation<T> {
 /// unilateral contact.
 ///
 /// - The penalty method with the smallest sufficient penalty, to two digits, or with 10 c if every penalty
-///   suffices.
+///   suffices; with c or c/100 if the scalar cannot represent the total stiffness.
 /// - The augmentation with the smallest penalty, to two digits, that is guaranteed to need at most ten steps,
-///   or with 10 c if every penalty suffices. Without rounding this penalty is the smallest ε with
+///   or with that of the penalty method if every penalty suffices. Without rounding this penalty is the smallest ε with
 ///   (1 + ε/c)¹¹ > R/(c tol), which makes p₁₀ = R/(c + ε) (1 + ε/c)⁻¹⁰ smaller than the tolerance. If rounding
 ///   with it would change the multiplier by more than the tolerance allows, the augmentation has the fewest
 ///   steps: the penalty is the largest one, to one digit, without this effect.
@@ -186,12 +186,23 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
         // If the penalty method does not meet the tolerance, the augmentation is not guaranteed to meet it.
         let Some(range) = self.penalty_range() else { return Vec::new() };
         let all_suffice = range.min.is_zero();
-        let eps =
-            if all_suffice { Exact::from(10) * &self.exact_system.c } else { next_above(&range.min, 2) };
+        let eps = if all_suffice { self.any_penalty() } else { next_above(&range.min, 2) };
         let penalty =
             self.recommend(&range, &eps, |eps| *eps > range.min, |penalty| Method::Penalty { penalty });
         let augmentation = self.is_above_floor.then(|| self.recommend_augmentation(&eps, all_suffice));
         [penalty, augmentation.flatten()].into_iter().flatten().collect()
+    }
+
+    /// Returns 10 c, or less if c + ε is out of the range of the scalar.
+    fn any_penalty(&self) -> Exact {
+        let multiples = [10, 1].map(Exact::from).into_iter().chain([Exact::from(1) / Exact::from(100)]);
+        let mut penalties = multiples.map(|multiple| multiple * &self.exact_system.c);
+        penalties.find(|eps| self.is_in_range(eps)).unwrap_or_else(|| self.exact_system.c.clone())
+    }
+
+    /// Returns `true` if the scalar can represent c + ε.
+    fn is_in_range(&self, eps: &Exact) -> bool {
+        self.coarsest.round_from_exact(&(&self.exact_system.c + eps)).is_ok()
     }
 
     /// Returns the penalties for which the penalty method meets the tolerance, if there are any.
@@ -275,7 +286,8 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
         let is_limit_excluded = is_exact && !is_counted;
         let min = if is_limit_excluded { &next_above(&range.min, 3) } else { &range.min };
         let min = (!range.min.is_zero()).then(|| self.confirmed_limit(min, Round::Up, &eps, meets_tolerance));
-        let max = range.max.as_ref().map(|max| self.confirmed_limit(max, Round::Down, &eps, meets_tolerance));
+        let max = range.max.as_ref().filter(|max| self.is_in_range(max));
+        let max = max.map(|max| self.confirmed_limit(max, Round::Down, &eps, meets_tolerance));
         Some(Recommendation { penalty_range: [min, max], ..recommendation })
     }
 

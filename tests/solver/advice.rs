@@ -95,6 +95,18 @@ fn the_smallest_penalty_has_two_digits() {
     assert_eq!([least("1/4"), least("1/2")], [Some(int(4)), None]);
 }
 
+/// The range of f32 ends at 3.4·10³⁸: below 10 c, then below 2 c. If every penalty suffices, and rounding harms none below
+/// that end, there is no largest penalty.
+#[test]
+fn the_range_of_a_scalar_limits_penalties() {
+    let system = |c: f32| SpringMass { c, m: 1.0, g: 9.81, l: 1.0, h: 1.0 };
+    for (c, penalty) in [(1e37, 1e38), (1e38, 1e38), (3e38, 3e36)] {
+        assert_eq!(advised(&system(c), &0.1), [penalty, penalty]);
+    }
+    let recommended = advise(&system(100.0), &1e37).unwrap().recommendations;
+    assert!(recommended[1..].iter().all(|of| of.penalty_range[1].is_none()), "{recommended:?}");
+}
+
 /// R = 4.81, c = 100: p₁₀ is smaller than the tolerance if (1 + ε/c)¹¹ > R/(c tol). For 1e-12 m that is 4.81e10, so
 /// ε > 835.6; for 1e-9 m, ε > 399.3; for 1e-6 m, ε > 166.5. The limit by rounding is 7.44e16 tol − c, near the floor less
 /// than twice the penalty: for 2.1e-14 m, of which rounding leaves 1.84e-14, 1463 for ε > 1245. For 1e-14 m it is 644 for

@@ -323,8 +323,9 @@ fn lost_products_are_refused() {
         (SpringMass { c: 1e-200, l: 0.0, h: 1e-200, ..one }, "spring force"),
         (SpringMass { c: f64::MAX, ..one }, "total stiffness c + ε"),
     ] {
-        let solved = solve(&system, &Method::augmented(f64::MAX));
-        assert_eq!(solved, Err(SolveError::OutOfRange { quantity }));
+        for method in [Method::augmented(f64::MAX), Method::Penalty { penalty: f64::MAX }] {
+            assert_eq!(solve(&system, &method), Err(SolveError::OutOfRange { quantity }));
+        }
     }
 }
 
