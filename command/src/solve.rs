@@ -216,10 +216,14 @@ impl Options {
             MethodName::Augmented => {
                 let ten_c = Number { text: "10 c, the default".to_string(), value: ten_c };
                 let zero = Number { text: "0".to_string(), value: Exact::zero() };
+                let tolerance = self.tolerance.clone().unwrap_or_else(|| {
+                    let Number { text, value } = self.tolerance();
+                    Number { text: format!("{text}, the default"), value }
+                });
                 let (penalty, start) = (self.penalty.as_ref(), self.initial_multiplier.as_ref());
                 Method::Augmented {
                     penalty: penalty.unwrap_or(&ten_c).round(names.of("--penalty <E>"), like)?,
-                    tolerance: self.tolerance().round(names.of("--tolerance <T>"), like)?,
+                    tolerance: tolerance.round(names.of("--tolerance <T>"), like)?,
                     max_augmentations: self.max_augmentations.unwrap_or(MAX_AUGMENTATIONS),
                     start: start.unwrap_or(&zero).round(names.of("--initial-multiplier <L>"), like)?,
                 }

@@ -137,16 +137,17 @@ fn rounding_notes_appear_only_for_visible_rounding() {
         ("999999999999999", "f64", None),
         // 2²⁴ + 1 does not fit. 1.4…e-45 is the least f32.
         ("16777217", "f32", Some("l = 16777216 m")),
-        ("1e-45", "f32", Some("l ≈ 1.4e-45 m")),
+        ("1e-45", "f32", Some("l ≈ 1.4013e-45 m")),
         // Two bits: 1, 3/2, 2, 3, 4, 6, 8, 12, …, and 3/32 is 0.09375.
         ("9.81", "mpfr:2", Some("l = 8 m")),
-        ("0.1", "mpfr:2", Some("l ≈ 0.0938 m")),
+        ("0.1", "mpfr:2", Some("l = 0.09375 m")),
         ("1/3", "mpfr:2", Some("l = 0.375 m")),
         ("6e2", "mpfr:2", Some("l = 512 m")),
         ("0x1.8p-3", "mpfr:2", None),
         ("0x1.ep-3", "mpfr:2", Some("l = 0.25 m")),
         ("0x1.999999999999ap-4", "f32", Some("l ≈ 0.10000000149012 m")),
         ("1.50", "mpfr:2", None),
+        ("1.05", "bf16", Some("l ≈ 1.04688 m")),
     ] {
         assert_eq!(seen(typed, scalar).as_deref(), expected, "{typed} in {scalar}");
     }

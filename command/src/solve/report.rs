@@ -311,8 +311,8 @@ pub fn rounded_in_words<T: ExactText>(
     rounded.collect::<Vec<_>>().join(", ")
 }
 
-/// Smallest number of digits compared, regardless of those typed; the residuals in a table have as many.
-const MIN_DIGITS: usize = 3;
+/// Smallest number of digits compared, regardless of those typed; floats of 32 bits have as many.
+const MIN_DIGITS: usize = 6;
 
 /// Largest number of digits written.
 const MAX_DIGITS: usize = 17;
