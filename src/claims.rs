@@ -64,8 +64,8 @@ mod prelude {
         Tree::from(n)
     }
 
-    pub(super) fn half(x: Tree) -> Tree {
-        x / int(2)
+    pub(super) fn half(x: impl Into<Tree>) -> Tree {
+        x.into() / int(2)
     }
 
     pub(super) fn square(x: impl Into<Tree>) -> Tree {
