@@ -173,6 +173,19 @@ fn two_cycles_are_recognised() {
     assert_eq!(solved(1e-15).outcome, Outcome::Converged);
 }
 
+/// R = −4, λ₀ = 3: after a step with a unilateral plane λ is 0, and with a bilateral one (c λ + ε R)/(c + ε) = −2.
+#[test]
+fn the_plane_may_change_between_steps() {
+    let s = SpringMass { g: 4.0, ..example() }.map(|x| exact(&x).to_mpfr(53));
+    let [eps, start] = [4, 3].map(|n| int(n).to_mpfr(53));
+    let mut steps = Augmentation::new(&s, &eps).with_multiplier(start);
+    steps.next();
+    assert!(steps.multiplier().is_zero());
+    let mut steps = steps.over(Plane::Bilateral);
+    steps.next();
+    assert_eq!(exact(steps.multiplier()), int(-2));
+}
+
 /// The bound of |u₅ − u*| is not below itself as the tolerance; nor is that of a separated mass, whose u =
 /// 1/3 is rounded and whose residual is 0.
 #[test]

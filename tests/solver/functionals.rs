@@ -266,6 +266,16 @@ fn a_tolerance_that_is_the_floor_is_not_met() {
     assert!(floors.filter(|(eps, least)| floor(*eps, *least) == Some(*least)).count() > 0);
 }
 
+/// The force jumps between 1/8 and the next f64, where both signs are certain.
+#[test]
+fn the_search_ends_between_neighbours() {
+    let [eighth, less] = [0.125_f64, f64::exp2(-60.0)].map(|x| Dual::constant(x.enclose()));
+    let jump = |[force]: &[_; 1], p: &DualEnclosure<f64>| force * (p - &eighth - &less).positive_part();
+    let found = solve_functional(&example(), &[10.0], &1e-200, jump).unwrap();
+    assert_eq!(found.outcome, Outcome::Stagnated);
+    assert_eq!(found.bounds.penetration, Interval { lower: 0.125, upper: f64::next_up(0.125) });
+}
+
 type Number = DualEnclosure<f64>;
 
 /// Returns the violated condition, and the penetration rounded to 32nds.

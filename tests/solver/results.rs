@@ -327,6 +327,9 @@ fn lost_products_are_refused() {
             assert_eq!(solve(&system, &method), Err(SolveError::OutOfRange { quantity }));
         }
     }
+    // A separated mass does not meet the second spring.
+    let separated = SpringMass { c: 1e308, h: 1.5, ..one };
+    assert!(solve(&separated, &Method::Penalty { penalty: f64::MAX }).is_ok());
 }
 
 /// The first multiplier would be ε p, which exceeds the range of f32.

@@ -288,6 +288,20 @@ fn two_wrong_answers_of_many_show_no_condition() {
     assert_eq!(ways, [1, 1, 7, 7, 10, 10, 495, 48000, 48000]);
 }
 
+/// Answers with errors of 2·10⁻⁷ are right within the tolerance; those with errors ten times as large jump.
+#[test]
+fn only_errors_that_jump_show_a_condition() {
+    let all = problems(1, 20, &[Family::Stiff, Family::Soft, Family::Huge]);
+    for (wrong, is_shown) in [("1.99e-6", false), ("2e-6", true)] {
+        let report = changed_in(&all, |problem, u, n| {
+            let [length, _] = scales(&problem.system);
+            let is_wrong = problem.system.m > number("5");
+            [u + number(if is_wrong { wrong } else { "2e-7" }) * length, n]
+        });
+        assert_eq!(threshold(&report, ThresholdQuantity::Mass).is_some(), is_shown, "{wrong}");
+    }
+}
+
 #[test]
 fn the_gap_of_a_condition_is_relative_to_its_larger_value() {
     let gap = |wrong: &str, right: &str| {

@@ -38,12 +38,26 @@ fn an_underflow_increases_the_drift_and_the_weight() {
     let (normal, four) = (laws(100_000, 4096, 4096), Exact::from(4));
     let drift = rounding::penetration_drift(&normal.system, &four, &normal.two_to_p);
     assert_eq!(normal.penetration_drift(&four) - drift, Exact::from(9) / &four);
+    let without = RoundingLaws::new(&normal.system, &normal.eta, &Exact::zero()).unwrap();
+    let increase = normal.limiting_penetration_drift() - without.limiting_penetration_drift();
+    assert_eq!(increase, Exact::from(2));
     let tolerance = Exact::from(1000);
     let system = normal.with_added_weight(&(Exact::from(3) * &normal.eta));
     let heavier = RoundingLaws::new(&system, &normal.eta, &Exact::zero()).unwrap();
     let min = |laws: &RoundingLaws, tolerance: &Exact| laws.penalty_range(tolerance).unwrap().min;
     assert!(min(&normal, &tolerance) > Exact::one());
     assert_eq!(min(&normal, &tolerance), min(&heavier, &(&tolerance - &normal.eta)));
+}
+
+/// 64 (65 + 64) = 64 (2⁷ + 1).
+#[test]
+fn a_drift_is_bounded_up_to_the_largest_stiffness() {
+    let is_bounded = |c: i32| {
+        let [c, m, g, l, h] = [c, 1, 1, 1, 1].map(Exact::from);
+        let laws = RoundingLaws::new(&SpringMass { c, m, g, l, h }, &Exact::power_of_two(-7), &Exact::zero());
+        laws.unwrap().drift_is_bounded(&Exact::from(64))
+    };
+    assert!(is_bounded(65) && !is_bounded(66));
 }
 
 #[test]
