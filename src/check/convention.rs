@@ -21,9 +21,8 @@ struct Returned {
 pub(super) struct Convention([Returned; 2]);
 
 impl Returned {
-    /// Returns signs, units, and the sum that most answers have: each if several answers are right with it, and of those
-    /// that it changes clearly several more are nearer than farther. (With any factor, other mistakes would have the same
-    /// results.)
+    /// Returns signs, units, and the sum that most answers have: each if several answers are right with it, and several
+    /// more are nearer than farther. (With any factor, other mistakes would have the same results.)
     fn candidates(i: usize, answers: &[&Observation], fit: &Exact) -> Vec<Self> {
         let numbers = answers.iter().filter_map(|answer| {
             Some((answer.numbers()[i].clone()?, answer.exact(i).clone(), fit * &answer.scales[i]))
@@ -38,12 +37,10 @@ impl Returned {
         all.retain(|returned| {
             let (mut near, mut gain) = (0, 0);
             for (number, exact, most) in &numbers {
-                let undone = returned.undo(number);
-                let error = (&undone - exact).abs();
+                let error = (returned.undo(number) - exact).abs();
                 // Any factor gives 0 for 0.
                 near += usize::from((returned.rank < 2 || !exact.is_zero()) && error <= *most);
-                let is_changed = (undone - number).abs() > Exact::from(100) * most;
-                gain += isize::from(is_changed) * if error < (number - exact).abs() { 1 } else { -1 };
+                gain += (number - exact).abs().cmp(&error) as isize;
             }
             near >= INFORMATIVE && (returned.rank == 0 || gain >= INFORMATIVE as isize)
         });

@@ -414,6 +414,12 @@ fn iterations_that_stop_early_are_named() {
             assert!(error <= most && error >= most / number("2"), "{place}: {error}");
         }
     }
+    // Errors are relative to the size of a system, and rounding errors are not.
+    let huge = run_within("1e-9", &problems(1, 12, &[Family::Huge]), |problem| {
+        let [u, n] = damped(solution(problem.system.clone(), None), &problem.system, "1/300000000");
+        Answer::new(u, n)
+    });
+    assert_eq!(names(&huge).len(), 1);
 }
 
 fn with_twice_c(s: &SpringMass<Exact>) -> [Exact; 2] {
@@ -424,7 +430,7 @@ fn with_twice_c(s: &SpringMass<Exact>) -> [Exact; 2] {
 #[test]
 fn a_mistake_behind_a_convention_is_named() {
     let twice = "c is 2 times the right value";
-    let table: [(&str, &str, Change); 6] = [
+    let table: [(&str, &str, Change); 8] = [
         ("−N is returned as N", twice, |s, _, _| {
             let [u, n] = with_twice_c(s);
             [u, -n]
@@ -439,6 +445,14 @@ fn a_mistake_behind_a_convention_is_named() {
             let [u, n] = with_twice_c(s);
             [u * number("0.001"), n]
         }),
+        ("-1000 u is returned as u", twice, |s, _, _| {
+            let [u, n] = with_twice_c(s);
+            [u * number("-1000"), n]
+        }),
+        ("-0.001 u is returned as u", twice, |s, _, _| {
+            let [u, n] = with_twice_c(s);
+            [u * number("-0.001"), n]
+        }),
         ("u + 0.5 m is returned as u", twice, |s, _, _| {
             let [u, n] = with_twice_c(s);
             [u + number("0.5"), n]
@@ -448,6 +462,12 @@ fn a_mistake_behind_a_convention_is_named() {
         let report = changed_in(&problems(1, 3, Family::ALL), |problem, u, n| change(&problem.system, u, n));
         assert_eq!(names(&report), [format!("with the convention that {convention}, {mistake}")]);
     }
+    // Near is relative to the size of a system.
+    let huge = changed_in(&problems(1, 12, &[Family::Huge]), |problem, _, _| {
+        let [u, n] = with_twice_c(&problem.system);
+        [-rounded(&u, 12), n]
+    });
+    assert_eq!(names(&huge), [format!("with the convention that −u is returned as u, {twice}")]);
     // Three forces show their sign, and three right deflections show millimetres. Two do not.
     let mistakes: [Change; 2] = [
         |s, _, _| {
