@@ -551,8 +551,8 @@ fn steps(problem: &Problem, lagging: bool) -> Answer {
     let mut before = Exact::zero();
     let mut steps = Vec::new();
     for step in Augmentation::new(&problem.system, &eps).take(12) {
-        let force = if lagging { before } else { step.contact_force.clone() };
-        steps.push([Some(step.deflection), Some(force)]);
+        let force = if lagging { &before } else { &step.contact_force };
+        steps.push([Some(step.deflection), Some(rounded(force, 12))]);
         before = step.contact_force;
     }
     Answer { steps, ..right(problem) }
