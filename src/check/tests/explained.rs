@@ -177,16 +177,16 @@ fn right_answers_of_few_digits_show_nothing() {
     assert!(names(&report).is_empty(), "{:?}", names(&report));
 }
 
-/// Three errors are of a similar size although the scales, 0.15 m times the factors, differ by a thousand.
+/// Most errors are of a similar size although the scales, 0.15 m times the factors, differ by a thousand.
 #[test]
 fn similar_absolute_errors_of_different_systems_are_a_bound() {
-    let bound = |factors: [&str; 3], errors: [&str; 3]| {
-        let all = [0, 1, 2].map(|i| {
+    let bound = |factors: &[&str], errors: &[&str]| {
+        let all = Vec::from_iter((0..factors.len()).map(|i| {
             let stiffness = number("100") / number(factors[i]);
             let height = number("1") + number("0.05") * number(factors[i]);
             let parameters = [&stiffness.to_string(), "1", "10", "1", &height.to_string()];
             problem(&i.to_string(), Family::Contact, parameters)
-        });
+        }));
         // N is wrong in any case.
         let report = changed_in(&all, |problem, u, n| {
             [u + number(errors[problem.id.parse::<usize>().unwrap()]), n * number("1.5")]
@@ -194,14 +194,23 @@ fn similar_absolute_errors_of_different_systems_are_a_bound() {
         report.absolute_bounds[0].as_ref().map(|bound| bound.to_string())
     };
     let of = |text: &str| Some(number(text).to_string());
-    assert_eq!(bound(["1", "1000", "2000"], ["1e-3", "1e-3", "2e-4"]), None);
-    assert_eq!(bound(["1", "1000", "2000"], ["1e-3", "1e-3", "4e-4"]), of("1e-3"));
-    assert_eq!(bound(["1", "2", "3"], ["1e-3", "1e-3", "1e-3"]), None);
-    assert_eq!(bound(["1", "1000", "1"], ["1e-3", "1e-3", "9.9e-5"]), None);
-    assert_eq!(bound(["1", "1000", "1"], ["1e-3", "1e-3", "1e-4"]), of("1e-3"));
+    assert_eq!(bound(&["1", "1000", "2000"], &["1e-3", "1e-3", "2e-4"]), None);
+    assert_eq!(bound(&["1", "1000", "2000"], &["1e-3", "1e-3", "4e-4"]), of("1e-3"));
+    assert_eq!(bound(&["1", "2", "3"], &["1e-3", "1e-3", "1e-3"]), None);
+    assert_eq!(bound(&["1", "1000", "1"], &["1e-3", "1e-3", "9.9e-5"]), None);
+    assert_eq!(bound(&["1", "1000", "1"], &["1e-3", "1e-3", "1e-4"]), of("1e-3"));
+    let [three, four] =
+        [3, 4].map(|large| ["1e-3"; 4][..large].iter().chain(&["1e-5"; 3]).copied().collect::<Vec<_>>());
+    assert_eq!(bound(&["1", "1000", "1", "1", "1", "1"], &three), None);
+    assert_eq!(bound(&["1", "1000", "1", "1", "1", "1", "1"], &four), of("1e-3"));
     // The tolerance of the second is 1.5e-4 m.
-    assert_eq!(bound(["1", "1000", "1"], ["1.5e-4", "1.5e-4", "1.5e-4"]), None);
-    assert_eq!(bound(["1", "1000", "1"], ["1.6e-4", "1.6e-4", "1.6e-4"]), of("1.6e-4"));
+    assert_eq!(bound(&["1", "1000", "1"], &["1.5e-4", "1.5e-4", "1.5e-4"]), None);
+    assert_eq!(bound(&["1", "1000", "1"], &["1.6e-4", "1.6e-4", "1.6e-4"]), of("1.6e-4"));
+    let forces = changed_in(&default_problems(), |problem, u, n| {
+        [u, n + number(if problem.id.ends_with('1') { "1" } else { "2" })]
+    });
+    let two = Some(number("2"));
+    assert_eq!(forces.absolute_bounds, [None, two.clone(), two]);
 }
 
 /// The errors of a table whose rows are shifted are of all sizes.
