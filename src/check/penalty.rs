@@ -29,9 +29,9 @@ impl ApparentPenalty {
             if p.abs() <= &rounding * Exact::from(10_000) {
                 continue;
             }
-            // The error of equilibrium is small relative to c p, and thus to that of N, or due to rounding.
-            let rounded = n / &p * rounding + &answer.sizes[1] * Exact::power_of_two(-50);
-            let most = decimal(1, -2) * &system.c * &p + Exact::from(4) * rounded;
+            // The error of equilibrium is small relative to c p, and thus to that of N, or due to the rounding of p. Other
+            // rounding errors are small relative to c p.
+            let most = decimal(1, -2) * &system.c * &p + Exact::from(4) * rounding * n / &p;
             let is_balanced = contact::equilibrium(system, u, n).abs() <= most;
             if p <= Exact::zero() || *n <= Exact::zero() || !is_balanced {
                 return None;
