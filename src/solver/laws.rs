@@ -93,7 +93,7 @@ impl<T: Scalar<Enclosure = E>, E: PositivePart> LawChecker<'_, T> {
         for n in [-256, 0, 1, 2, 3, 255] {
             self.is(&T::int(n), &Exact::int(n), ScalarLaw::Integer, || format!("the integer {n}"))?;
         }
-        for n in [0, 1, 2, 3, 257, 16_777_215] {
+        for n in [-16_777_216, -257, 0, 1, 2, 3, 16_777_215] {
             let right = Exact::int(n);
             self.encloses(&E::int(n), &right, ScalarLaw::Integer, || format!("the enclosure of {n}"))?;
         }
