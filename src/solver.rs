@@ -148,12 +148,10 @@ pub fn solve_observed<T: Scalar>(
     let reaction = system::reaction(&enclosed);
     let state = State::from_reaction(&reaction, system);
     let target = ExactSolution::of(&enclosed, reaction, method, state, plane);
-    match method {
-        Method::Lagrange => {}
-        Method::Penalty { .. } if target.free => {}
-        Method::Penalty { penalty } | Method::Augmented { penalty, .. } => {
-            validate::stiffness(system, penalty)?
-        }
+    // A separated mass does not meet the second spring of the penalty method.
+    let is_free = target.free && matches!(method, Method::Penalty { .. });
+    if let Some(eps) = method.penalty().filter(|_| !is_free) {
+        validate::stiffness(system, eps)?;
     }
     let bounds = target.bounds::<T>()?;
     let raw = match method {

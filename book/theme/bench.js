@@ -332,7 +332,7 @@ const open = root => {
   root.classList.add("live");
   const find = selector => root.querySelector(selector);
   const initial = small ? { ...EXAMPLE, numbers: "exact", k: Number(root.dataset.k) } : EXAMPLE;
-  let question = small ? initial : asked(location.search), result, view, domain, box, former, settled, length, held = false, touched, width;
+  let question = small ? initial : asked(location.search), result, view, domain, box, former, settled, length, held, width;
 
   const fill = () => {
     for (const key of fields) {
@@ -442,7 +442,7 @@ const open = root => {
     event.preventDefault();
     system.setPointerCapture(event.pointerId);
     find("[role=slider]").focus({ preventScroll: true });
-    dragged = held = true;
+    [dragged, held] = [true, question];
   });
   system.addEventListener("pointermove", event => dragged && drag(event));
   // A finger on the plane moves it, and elsewhere scrolls the page; `touch-action` has no effect inside an SVG.
@@ -450,18 +450,17 @@ const open = root => {
     if (event.target.closest("[role=slider]")) event.preventDefault();
   }, { passive: false });
   root.addEventListener("pointerdown", ({ target }) => {
-    if (target.dataset.slide) [held, touched] = [true, question];
+    if (target.dataset.slide) held = question;
   });
   for (const end of ["pointerup", "pointercancel"]) {
     addEventListener(end, () => {
       if (!held) return;
       // A finger that scrolls the page has moved the slider that it touched.
-      if (end === "pointercancel" && touched) {
+      if (end === "pointercancel" && !dragged) {
         document.activeElement?.blur?.();
-        change(touched);
+        change(held);
       }
-      dragged = held = false;
-      touched = undefined;
+      [dragged, held] = [false, undefined];
       keep();
     });
   }

@@ -214,10 +214,13 @@ impl<'a> Search<'a> {
             return Vec::new();
         }
         let found = few_digits(answers, &self.fit).or_else(|| {
-            let is_single = answers.iter().all(|answer| answer.is_single());
-            let single = is_single.then(|| "it computes in single precision".to_string());
-            let parameters = || rounded_parameters(answers, self.tolerance).filter(|_| wrong >= INFORMATIVE);
-            let name = single.or_else(parameters)?;
+            let name = if answers.iter().all(|answer| answer.is_single()) {
+                "it computes in single precision".to_string()
+            } else if wrong >= INFORMATIVE {
+                rounded_parameters(answers, self.tolerance)?
+            } else {
+                return None;
+            };
             Some(Explanation::new(name, Vec::new()))
         });
         found.into_iter().collect()

@@ -6,7 +6,7 @@ use super::rounding_laws::{PenaltyRange, RoundingLaws, min_normal};
 use super::{
     MAX_AUGMENTATIONS, Method, Outcome, Plane, Scalar, Solution, SolveError, State, exact, solve, validate,
 };
-use crate::chapter::{SpringMass, contact};
+use crate::chapter::{SpringMass, contact, penalty};
 use crate::number::{Exact, ExactText, PositivePart};
 use num_traits::Zero;
 use rug::Integer;
@@ -60,8 +60,8 @@ pub struct Recommendation<T> {
 /// - The penalty method with the smallest sufficient penalty, to two digits, or with 10 c if every penalty
 ///   suffices; with c or c/100 if the scalar cannot represent the total stiffness.
 /// - The augmentation with the smallest penalty, to two digits, that is guaranteed to need at most ten steps,
-///   or with that of the penalty method if every penalty suffices. Without rounding this penalty is the smallest ε with
-///   (1 + ε/c)¹¹ > R/(c tol), which makes p₁₀ = R/(c + ε) (1 + ε/c)⁻¹⁰ smaller than the tolerance. If rounding
+///   or with that of the penalty method if every penalty suffices. Without rounding this penalty is the
+///   smallest ε with (1 + ε/c)¹¹ > R/(c tol), which makes p₁₀ = R/(c + ε) (1 + ε/c)⁻¹⁰ smaller than the tolerance. If rounding
 ///   with it would change the multiplier by more than the tolerance allows, the augmentation has the fewest
 ///   steps: the penalty is the largest one, to one digit, without this effect.
 ///
@@ -195,14 +195,14 @@ impl<T: Scalar + ExactText> Advisor<'_, T> {
 
     /// Returns 10 c, or less if c + ε is out of the range of the scalar.
     fn any_penalty(&self) -> Exact {
-        let multiples = [10, 1].map(Exact::from).into_iter().chain([Exact::from(1) / Exact::from(100)]);
-        let mut penalties = multiples.map(|multiple| multiple * &self.exact_system.c);
-        penalties.find(|eps| self.is_in_range(eps)).unwrap_or_else(|| self.exact_system.c.clone())
+        let c = &self.exact_system.c;
+        let penalties = [1000, 100, 1].map(|percent| c * Exact::from(percent) / Exact::from(100));
+        penalties.into_iter().find(|eps| self.is_in_range(eps)).unwrap_or_else(|| c.clone())
     }
 
     /// Returns `true` if the scalar can represent c + ε.
     fn is_in_range(&self, eps: &Exact) -> bool {
-        self.coarsest.round_from_exact(&(&self.exact_system.c + eps)).is_ok()
+        self.coarsest.round_from_exact(&penalty::total_stiffness(&self.exact_system, eps)).is_ok()
     }
 
     /// Returns the penalties for which the penalty method meets the tolerance, if there are any.

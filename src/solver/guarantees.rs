@@ -19,9 +19,9 @@ use rug::Integer;
 /// tolerance.
 ///
 /// Machine floats below their smallest normal number ν are rounded by more than η relative to themselves.
-/// Therefore floats of limited range also require a weight of 0 or at least ν, a gap of 0 or ε |Δ| ≥ 2 ν, lengths H and l
-/// of 0 or at least 4 ν / η, and a tolerance of at least 4 ν, and the drift increases by ν (2 + 1/ε). No
-/// result below ν then occurs before the tolerance is met.
+/// Therefore floats of limited range also require a weight of 0 or at least ν, a gap of 0 or ε |Δ| ≥ 2 ν,
+/// lengths H and l of 0 or at least 4 ν / η, and a tolerance of at least 4 ν, and the drift increases by
+/// ν (2 + 1/ε). No result below ν then occurs before the tolerance is met.
 ///
 /// # Errors
 /// Returns [`SolveError::Invalid`] if a parameter, the penalty, the tolerance or the unit roundoff is not

@@ -222,8 +222,8 @@ fn units<T: Scalar + Real + ToExact>(x: &Case<T>, solve: impl Solver<T>) -> Tria
 
 /// Returns `true` if the step after the last one has neither underflow nor overflow. (For R = 0, λ tends to 0.)
 fn ends_in_range<T: Scalar + Real + ToExact>(x: &Case<T>, solution: &Solution<T>) -> bool {
-    let last = |lambda: &T| Case { lambda: lambda.clone(), ..x.clone() };
-    solution.multiplier.as_ref().is_none_or(|lambda| rounding_claims::in_range(&last(lambda)))
+    let multiplier = solution.multiplier.clone();
+    multiplier.is_none_or(|lambda| rounding_claims::in_range(&Case { lambda, ..x.clone() }))
 }
 
 /// Returns the exponent of two of the unit of a quantity, from those of length, mass and force.

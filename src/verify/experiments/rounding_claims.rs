@@ -69,14 +69,17 @@ fn bound_at(bound: &Tree, bits: i32) -> Option<Exact> {
 /// Returns `true` if the computed results have neither underflow nor overflow, so that the model of rounding
 /// to p bits applies.
 pub(super) fn in_range<T: Scalar + Real + ToExact>(case: &Case<T>) -> bool {
-    static FORMULAS: LazyLock<(Program, Vec<usize>)> = LazyLock::new(|| {
+    static FORMULAS: LazyLock<(Program, [usize; 4])> = LazyLock::new(|| {
         let Case { system: s, eps, lambda, .. } = symbols();
         let u = augmented::deflection(s, eps, lambda);
-        let forces =
-            [augmented::update(s, eps, lambda, &u), augmented::contact_force(s, &u), system::reaction(s)];
-        let formulas = forces.into_iter().chain([structure::deflection(s)]);
+        let formulas = [
+            augmented::update(s, eps, lambda, &u),
+            augmented::contact_force(s, &u),
+            structure::deflection(s),
+            system::reaction(s),
+        ];
         let mut program = Program::default();
-        let places = formulas.map(|formula| program.add(&formula.with_rounding())).collect();
+        let places = formulas.map(|formula| program.add(&formula.with_rounding()));
         (program, places)
     });
     let (program, places) = &*FORMULAS;

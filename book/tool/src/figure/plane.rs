@@ -326,8 +326,8 @@ pub fn bent() -> Figure {
     plane.text("iterate", (0.3, 0.9), (6.0, 5.0), "λ_2 = 0");
     plane.text("penalty", stuck, (-14.0, 5.0), "stuck, pulling");
     plane.text("spring", (-0.9, -1.5), (-1.0, 0.0), "c p + N = R");
-    let caption = "A separated system ($c = \\varepsilon = 4$, $g = 4$, $R = -4$): the bent line $N = \\langle\\lambda_k + \\varepsilon\\,p\\rangle$ meets \
-                   equilibrium on the other arm. Without the positive part (dashed), the plane pulls.";
+    let caption = "A separated system ($c = \\varepsilon = 4$, $g = 4$, $R = -4$): the bent line \
+                   $N = \\langle\\lambda_k + \\varepsilon\\,p\\rangle$ meets equilibrium on the other arm. Without the positive part (dashed), the plane pulls.";
     let description = "A system with R < 0, whose line of equilibrium meets the other arm of the corner, N = 0. Lines \
                        N = ⟨λ + ε p⟩ with ε = 4 lie on the p axis and then rise. From λ = 10 the first meets equilibrium \
                        above the p axis, the second on it, in the solution. The line N = ε p, without the positive \
