@@ -39,7 +39,7 @@ use super::effort::MAX_EFFORT;
 use crate::formula::Hypothesis;
 use crate::formula::statement::{Proposition, Statement};
 use crate::number::Tree;
-use algebra::{Ratio, UNKNOWN};
+use algebra::Ratio;
 use dictionary::{integral, polynomial};
 use leaf::Search;
 
@@ -88,8 +88,7 @@ pub(in crate::proof) fn prove_proposition(
 fn solve(proposition: &Proposition, hypotheses: Vec<&Hypothesis>) -> Result<Node, ProofError> {
     let sequent = Sequent::new(proposition, hypotheses)?;
     certify(&sequent, &[]).map_err(|reason| {
-        let is_unknown = reason.quantity().is_some_and(|of| of.value.variables().contains(&UNKNOWN));
-        if sequent.effort.is_exceeded() || is_unknown { ProofError::TooLarge(MAX_EFFORT) } else { reason }
+        if sequent.effort.is_exceeded() { ProofError::TooLarge(MAX_EFFORT) } else { reason }
     })
 }
 
