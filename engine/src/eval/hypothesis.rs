@@ -72,6 +72,11 @@ mod tests {
         for other in [(&u - &c, &u + &d), (&d - &c, &u + &c), (&d - &u, &u + &c)] {
             assert_eq!(Hypothesis::between(&q, other.0, other.1).distance(), None);
         }
+        // (u − q)(c − d) ≥ 0, and (u − q)(q − c) = 0.
+        let product = (&u - &q) * (&c - &d);
+        assert_eq!(Hypothesis::new(Relation::NonNegative, product).interval(), None);
+        let ends = Hypothesis::new(Relation::Zero, (&u - &q) * (&q - &c));
+        assert_eq!(ends.interval(), None);
         // At two thirds of the interval the distance from 1 is twice that from 4.
         let at = |name| if name == "u" { 1.0 } else { 4.0 };
         let between = Hypothesis::between(&q, &u, &c);

@@ -1,10 +1,12 @@
 //! Tests of the domains.
 
 use super::*;
-use crate::formula::claim::PRECISION;
+use crate::formula::claim::{PRECISION, SCALES};
+use crate::formula::{Hypothesis, Relation};
 use crate::number::{Ball, Exact, Exponential, Mpfr, Program, ToExact, Tree};
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
+use std::collections::BTreeSet;
 
 fn x(name: &'static str) -> Tree {
     Tree::symbol(name)
@@ -64,6 +66,29 @@ fn only_exact_values_are_rounded() {
     let imprecise = Rationals { precision: Exact::from(2) };
     let none = value(&eighths, &imprecise, |_| unreachable!()).unwrap();
     assert_eq!(none.sign(), None);
+    for precision in ["12", "16/3"] {
+        assert_eq!(Rationals { precision: precision.parse().unwrap() }.round(&Exact::one()), None);
+    }
+}
+
+/// A power of two by which a system is scaled is drawn as one, and no other number is admitted.
+#[test]
+fn scales_are_powers_of_two() {
+    let scale = SCALES[0];
+    let draw = |i: u64| first_integer_points(i, &[], &[scale]).last().map(|point| point.at(scale));
+    let drawn: BTreeSet<_> = (1..200).filter_map(draw).collect();
+    assert!(drawn.into_iter().eq((-4..=4).map(Exact::power_of_two)));
+    let is_admitted = |x: &str| Point::new([(scale, x.parse().unwrap())]).satisfies(&[]);
+    assert_eq!(["1/4", "4", "3/4", "4/3"].map(is_admitted), [true, true, false, false]);
+}
+
+/// A negative number is replaced by 0 at every third point, and by another one in between.
+#[test]
+fn a_quantity_that_may_be_zero_is_zero_at_every_third_point() {
+    let given = [Hypothesis::new(Relation::NonNegative, x("a"))];
+    let points = constructed_points(&given, &["a"]);
+    let zeros: Vec<_> = points.enumerate().filter(|(_, point)| point.at("a").is_zero()).collect();
+    assert!(!zeros.is_empty() && zeros.iter().all(|(i, _)| i % 3 == 0), "{zeros:?}");
 }
 
 /// The quotient by a ball around 0 is unbounded; that by 0 is undefined.

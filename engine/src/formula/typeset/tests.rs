@@ -219,7 +219,11 @@ fn the_text_shows_which_operations_are_rounded() {
             r"\mathrm{fl}\left(\frac{\mathrm{fl}(3 a)}{\mathrm{fl}(2 b)}\right)",
         ),
         ((&a * &scale + &b).round(), "fl(a 2ᵃ + b)", r"\mathrm{fl}(a\,2^a + b)"),
+        ((&scale * &a + &b).round(), "fl(2ᵃ a + b)", r"\mathrm{fl}(2^a\,a + b)"),
+        ((&a * &b).positive_part().round(), "fl(⟨a b⟩)", r"\mathrm{fl}(\langle a\,b \rangle)"),
         ((&a * (&scale * &scale) + &b).round(), "fl(a (2ᵃ)² + b)", r"\mathrm{fl}(a\,(2^a)^2 + b)"),
+        ((-(&a + &b)).round(), "fl(−a − b)", r"\mathrm{fl}(-a - b)"),
+        (((&a + n(0)).round() + &b).round(), "fl(fl(a) + b)", r"\mathrm{fl}(\mathrm{fl}(a) + b)"),
         (((&a + &b) * &scale).round(), "fl((a + b) 2ᵃ)", r"\mathrm{fl}((a + b)\,2^a)"),
         (((&a * &scale * n(3)).round() * &b).round(), "fl(3 a 2ᵃ b)", r"\mathrm{fl}(3 a\,2^a\,b)"),
         (

@@ -8,21 +8,17 @@ use rug::integer::Order;
 use rug::{Integer, Rational};
 use std::cmp::Ordering;
 use std::fmt::Debug;
+use std::iter;
 
 /// Largest absolute value of an exponent, beyond which no format has one: an infinity of a wrong one ends there.
-const MAX_FORMAT_EXPONENT: i32 = 1 << 15;
+const MAX_FORMAT_EXPONENT: usize = 1 << 15;
 
 /// Returns e for 2ᵉ ≤ x < 2ᵉ⁺¹, without `integer_decode`, which can panic for more than 64 bits.
-fn exponent<T: Float>(mut x: T) -> i32 {
+fn exponent<T: Float>(x: T) -> i32 {
     let (one, two) = (T::one(), T::one() + T::one());
-    let mut e = 0;
-    while x < one && e > -MAX_FORMAT_EXPONENT {
-        (x, e) = (x * two, e - 1);
-    }
-    while x >= two && e < MAX_FORMAT_EXPONENT {
-        (x, e) = (x / two, e + 1);
-    }
-    e
+    let halves = iter::successors(Some(x), |x| Some(*x / two)).take(MAX_FORMAT_EXPONENT);
+    let doubles = iter::successors(Some(x), |x| Some(*x * two)).take(MAX_FORMAT_EXPONENT);
+    halves.take_while(|x| *x >= two).count() as i32 - doubles.take_while(|x| *x < one).count() as i32
 }
 
 impl<T: Float + Debug> Native<T> {
@@ -51,7 +47,7 @@ impl<T: Float + Debug> Native<T> {
         let e = e + zeros.cast_signed();
         for (factor, steps) in [(radix, e.abs() / 8), (two, e.abs() % 8)] {
             for _ in 0..steps {
-                x = if e < 0 { x / factor } else { x * factor };
+                x = if e.is_negative() { x / factor } else { x * factor };
             }
         }
         Native(x)
@@ -84,8 +80,8 @@ impl<T: Float + Debug> Native<T> {
 impl<T: Float + Debug> ToExact for Native<T> {
     fn to_exact(&self) -> Result<Exact, NonFiniteError> {
         if !self.0.is_finite() {
-            let sign = if self.0 > T::zero() { 1.0 } else { -1.0 };
-            return Err(NonFiniteError::of(if self.0.is_nan() { f64::NAN } else { f64::INFINITY * sign }));
+            let infinity = if self.0.is_sign_negative() { f64::NEG_INFINITY } else { f64::INFINITY };
+            return Err(NonFiniteError::of(if self.0.is_nan() { f64::NAN } else { infinity }));
         }
         if Self::bits() > u64::BITS {
             return Err(NonFiniteError::Incomplete);

@@ -98,8 +98,9 @@ fn limits_of_exponentials_are_decided_if_they_are_certain() {
     assert_eq!(sums.each_ref().map(tends), [Some(2), Some(2), Some(1), Some(2), Some(2), None]);
     let products = [&grows * &e, &grows * -&number, &number * &number, &decays * &number, &decays * &e];
     assert_eq!(products.each_ref().map(tends), [Some(2), Some(2), Some(1), Some(0), None]);
-    let signs = [-(&grows * &grows), &grows * -&number, -(&grows * &number), -&grows * -&grows];
-    assert_eq!(signs.map(|x| tends(&x.exp())), [Some(0), Some(0), Some(0), Some(2)]);
+    let signs =
+        [-(&grows * &grows), &grows * -&grows, &grows * -&number, -(&grows * &number), -&grows * -&grows];
+    assert_eq!(signs.map(|x| tends(&x.exp())), [Some(0), Some(0), Some(0), Some(0), Some(2)]);
     let quotients = [&number / &grows, &one / &decays, &decays / &number, &grows / &e];
     assert_eq!(quotients.each_ref().map(tends), [Some(0), None, Some(0), None]);
     assert_eq!([decays.positive_part(), (&grows - &e).exp()].each_ref().map(tends), [Some(0), None]);

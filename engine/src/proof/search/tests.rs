@@ -62,6 +62,11 @@ fn reasons_are_specific() {
             outcome(vec![above_zero(t.clone()), hypothesis], Proposition::Limit(of.clone(), "t", int(to)));
         assert!(matches!(outcome, Err(ProofError::UnknownLimit(_))), "{of}");
     }
+    // A hypothesis on another symbol is not one on the variable, and a case distinction decides a bracket.
+    let limit = || Proposition::Limit(int(1) / (int(1) + &t * &t), "t", int(0));
+    let undefined = outcome(vec![above_zero(int(1) / &c)], limit());
+    assert!(matches!(undefined, Err(ProofError::PossibleZeroDivisor(of, _)) if of == c));
+    assert!(proved(vec![above_zero((u.positive_part() + int(1)) * &t)], limit()));
     // A hypothesis that excludes large values of the variable.
     for ending in [above_zero(&c - &t), above_zero(&c * &t), Hypothesis::between(&t, int(1), int(2))] {
         let outcome =

@@ -73,6 +73,7 @@ fn hypotheses() -> Vec<Forged> {
     let between = Hypothesis::between(&y, 0, &t);
     vec![
         row("a hypothesis that ends", &(&t * n(0)), below.clone(), &[0, 1]),
+        row("an equation that ends", &(&t * n(0)), zero(&t - n(1)), &[0, 1]),
         row("a hypothesis that ends and is not listed", &(&t * n(0)), below, &[0]),
         row("a symbol that follows the variable", &y, follows.clone(), &[0, 1]),
         row("a symbol that follows the variable unseen", &(&t * n(0)), follows, &[0]),
