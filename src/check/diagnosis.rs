@@ -140,7 +140,7 @@ impl<'a> Search<'a> {
         let samples = wrong.iter().step_by(wrong.len().div_ceil(SAMPLES).max(1));
         // A penalty is positive.
         let may_be_negative = !mistake.name.contains("ε = {k}");
-        let is_possible = |k: &Exact| *k > Exact::zero() || may_be_negative && !k.is_zero();
+        let is_possible = |k: &Exact| *k > Exact::zero() || may_be_negative;
         let mut numbers = samples.flat_map(|answer| estimates(mistake, answer)).filter(is_possible);
         let explains = |k: &Exact| self.explains_all(mistake, Some(k), answers);
         let k = numbers.find(explains)?;

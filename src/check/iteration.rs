@@ -14,22 +14,17 @@ const PRINTED_DIGITS: usize = 12;
 type Deviation = [(Exact, Exact); 2];
 
 /// Returns u and N of a program with the errors of an answer beyond rounding, relative to the larger of these and its
-/// scales; in the closer state if both are possible.
+/// scales.
 fn deviation(answer: &Observation, program: &Program) -> Option<Deviation> {
     let penalty = answer.reported_penalty();
     let known = Known::new(&answer.problem.system, penalty.as_ref(), None);
-    let decided = program.touches(&known);
-    let states = [decided, !decided].into_iter().take(if answer.state.is_none() { 2 } else { 1 });
-    let all = states.filter_map(|touches| {
-        let [u, n] = program.values(&known, touches);
-        let error = |i: usize, value: Exact| {
-            let beyond = (answer.numbers()[i].as_ref()? - &value).abs() - answer.rounding(i);
-            let error = beyond.positive_part() / answer.scales[i].clone().max(value.abs());
-            Some((value, error))
-        };
-        Some([error(0, u?)?, error(1, n?)?])
-    });
-    all.min_by_key(|both| both.each_ref().map(|(_, error)| error.clone()).into_iter().max())
+    let [u, n] = program.values(&known, program.touches(&known));
+    let error = |i: usize, value: Exact| {
+        let beyond = (answer.numbers()[i].as_ref()? - &value).abs() - answer.rounding(i);
+        let error = beyond.positive_part() / answer.scales[i].clone().max(value.abs());
+        Some((value, error))
+    };
+    Some([error(0, u?)?, error(1, n?)?])
 }
 
 /// Returns the largest error of answers relative to a program, at most a thousandth, if that of most is similar: of u in

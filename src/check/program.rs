@@ -563,11 +563,9 @@ fn augmentations(system: &SpringMass<Tree>, k: &Tree) -> Vec<Mistake> {
         let multiplier = augmented::multiplier_after(system, &zero, &decay);
         let before = std::mem::replace(&mut force, augmented::update(system, k, &multiplier, &deflection));
         for (what, force) in [("", &force), (", and N is one step behind", &before)] {
-            if steps > 1 || !what.is_empty() {
-                let name = format!("the augmentation stops after {steps} steps with ε = {{k}} N/m{what}");
-                let mistake = method(name, [deflection.clone(), force.clone()], apart());
-                all.push(Mistake { kind: Kind::Augmentations(steps), ..mistake });
-            }
+            let name = format!("the augmentation stops after {steps} steps with ε = {{k}} N/m{what}");
+            let mistake = method(name, [deflection.clone(), force.clone()], apart());
+            all.push(Mistake { kind: Kind::Augmentations(steps), ..mistake });
         }
         decay = decay * &contraction;
     }

@@ -161,6 +161,12 @@ fn systems_have_the_property_of_their_family() {
     for family in [Near, Lifted, Stiff, Soft, Far, Huge, Tiny, Graded, Signed] {
         assert_eq!(states(family), HashSet::from([State::Contact, State::Separated]), "{family}");
     }
+    // Without contact the gap of a lifted mass has either sign.
+    let lifted = all
+        .iter()
+        .filter(|problem| problem.family == Lifted && State::of(&problem.system) == Ok(State::Separated));
+    let gaps: HashSet<_> = lifted.map(|problem| system::gap(&problem.system) > Exact::zero()).collect();
+    assert_eq!(gaps.len(), 2);
     // Each of four parameters in turn has more than ten digits, one unit above or below.
     let mut changed = HashSet::new();
     for Problem { id, system, .. } in all.iter().filter(|problem| problem.family == Near) {

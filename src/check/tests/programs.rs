@@ -23,6 +23,20 @@ fn no_edit_is_useless() {
     }
 }
 
+/// A name is replaced by those of the same unit that are computed before it, and a bracket by an absolute value.
+#[test]
+fn edits_are_programs() {
+    let system = problem("own", Family::Contact, ["100", "2", "9.81", "0.5", "0.6"]);
+    let problem = &with_penalties(vec![system])[0];
+    let multiplier = ["N = |R| instead of ⟨R⟩", "in contact N = m g − c gap instead of m g − c u"];
+    let penalty = ["in contact N = ε |p| instead of ε p", "ε is not used: the plane is rigid"];
+    for (reference, names) in [(Reference::Multiplier, multiplier), (Reference::Penalty, penalty)] {
+        let all = reference.edits();
+        assert!(all.iter().all(|edit| edit.program.answer(problem, None) != [None, None]));
+        assert!(names.iter().all(|name| all.iter().any(|edit| edit.name == *name)), "{names:?}");
+    }
+}
+
 /// An edit is named, or one with the same results, in rationals and mostly in f64, unless it changes no answer beyond
 /// the tolerance.
 #[test]
