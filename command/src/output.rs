@@ -9,7 +9,6 @@ use std::fmt::Display;
 use std::io::{self, BufWriter, Write};
 use std::ops::RangeBounds;
 use std::process::ExitCode;
-use std::time::Duration;
 
 /// Columns of a page, for help and for output that is not a terminal.
 pub const WIDTH: u8 = 80;
@@ -239,7 +238,7 @@ pub fn with_progress<T>(what: &str, work: impl FnOnce(&(dyn Fn(usize, usize) + S
     let style = ProgressStyle::with_template(&format!("{what} {{bar:40}} {{percent:>3}} %"));
     let bar = ProgressBar::no_length().with_style(style.unwrap_or(ProgressStyle::default_bar()));
     let result = work(&|now, of| {
-        if bar.elapsed() > Duration::from_secs(1) {
+        if bar.elapsed().as_secs() > 0 {
             bar.update(|state| {
                 state.set_len(of as u64);
                 state.set_pos(state.pos().max(now as u64));
