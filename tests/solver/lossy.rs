@@ -2,7 +2,7 @@
 
 use num_traits::{Float, Num, NumCast, One, ToPrimitive, Zero};
 use spring_mass_contact::chapter::SpringMass;
-use spring_mass_contact::number::{Native, NonFiniteError, ToExact};
+use spring_mass_contact::number::{Exponential, Native, NonFiniteError, ToExact};
 use spring_mass_contact::operators;
 use spring_mass_contact::solver::{Method, laws, solve};
 use std::num::FpCategory;
@@ -106,7 +106,14 @@ fn a_number_that_is_decoded_in_part_has_no_exact_value() {
     let third = 1.0 / 3.0;
     assert_eq!(Native(Lossy::<53>(0.75)).to_exact(), 0.75.to_exact());
     assert_eq!(Native(Lossy::<53>(third)).to_exact(), Err(NonFiniteError::Incomplete));
-    assert_eq!(Native(Lossy::<106>(0.75)).to_exact(), Err(NonFiniteError::Incomplete));
+    assert_eq!(Native(Lossy::<64>(0.75)).to_exact(), 0.75.to_exact());
+    assert_eq!(Native(Lossy::<65>(0.75)).to_exact(), Err(NonFiniteError::Incomplete));
+}
+
+/// The type itself returns 53 bits.
+#[test]
+fn an_exponential_is_rounded_to_the_bits_of_its_type() {
+    assert_eq!(Native(Lossy::<24>(1.0)).exp().0.0, std::f32::consts::E as f64);
 }
 
 /// `solve` names the first parameter without an exact value, and the laws of scalars name what requires it.
