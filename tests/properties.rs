@@ -29,7 +29,9 @@ fn karush_kuhn_tucker_conditions() {
                 Method::Augmented { .. } => {}
             }
         }
-        assert!(contact::kkt(s, &contact::deflection(s), &contact::contact_force(s)).is_zero());
+        let (u, n) = (contact::deflection(s), contact::contact_force(s));
+        assert!(contact::kkt(s, &u, &n).is_zero());
+        assert!(!contact::kkt(s, &(u + int(1)), &n).is_zero());
         let answer = solve(s, &Method::Lagrange).unwrap();
         assert!(answer.residuals(s).unwrap().is_zero());
         assert_eq!((answer.deflection, answer.multiplier), (resting(s), Some(pushing(s))));
