@@ -155,6 +155,16 @@ fn an_invalid_value_is_reported_with_its_option() {
 }
 
 #[test]
+fn a_long_argument_is_shortened() {
+    let long = "x".repeat(1000);
+    for arguments in [vec![&*long], vec!["solve", &long], vec!["solve", "--method", &long]] {
+        let output = captured(command().args(arguments));
+        let line = String::from_utf8_lossy(&output.stderr);
+        assert!(line.starts_with("error: ") && line.contains("xxx…'") && line.len() < 300, "{line}");
+    }
+}
+
+#[test]
 fn an_argument_that_is_not_unicode_is_refused() {
     let bytes = std::ffi::OsString::from_vec(b"\xff\xfe".to_vec());
     let output = captured(command().args(["solve", "--mass"]).arg(bytes));

@@ -21,7 +21,7 @@ type Table = (Vec<(Problem, Reply)>, Vec<Problem>);
 
 /// Returns the answers in a file, or on stdin for `-`, to drawn systems or to those of its rows.
 pub fn read(path: &str, drawn: Vec<Problem>) -> Result<Table, Failure> {
-    let table = text(path).and_then(|text| table(text.trim_start_matches('\u{feff}'), drawn));
+    let table = text(path, MAX_BYTES).and_then(|text| table(text.trim_start_matches('\u{feff}'), drawn));
     table.map_err(|reason| invalid(path, "--answers <FILE>", reason))
 }
 
@@ -66,15 +66,15 @@ fn table(text: &str, drawn: Vec<Problem>) -> Result<Table, String> {
     Ok((answers, missing))
 }
 
-fn text(path: &str) -> Result<String, String> {
-    let (mut bytes, limit) = (Vec::new(), MAX_BYTES + 1);
+fn text(path: &str, max_bytes: u64) -> Result<String, String> {
+    let (mut bytes, limit) = (Vec::new(), max_bytes + 1);
     let read = match path {
         "-" => io::stdin().take(limit).read_to_end(&mut bytes),
         path => File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes)),
     };
     let count = read.map_err(|error| format!("cannot be read: {error}; must be a file, or - for stdin"))?;
-    if count as u64 > MAX_BYTES {
-        return Err(format!("must have no more than {MAX_BYTES} bytes"));
+    if count as u64 > max_bytes {
+        return Err(format!("must have no more than {max_bytes} bytes"));
     }
     // Other encodings have the same digits, and other columns may have any contents.
     Ok(String::from_utf8_lossy(&bytes).into_owned())

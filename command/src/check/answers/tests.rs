@@ -2,6 +2,7 @@
 
 use super::*;
 use spring_mass_contact::check::{AnswerVerdict, Family, check_table, problems};
+use spring_mass_contact::rug::float::Round;
 
 fn read_table(text: &str) -> Result<Table, String> {
     table(text, problems(1, 2, &[Family::Contact, Family::Stiff]))
@@ -77,8 +78,25 @@ fn rows_are_answers_to_their_systems() {
         assert_eq!(families, [(family, AnswerVerdict::Right)]);
         assert_eq!(missing, []);
     }
+    // The parameters of contact cases may be repeated.
+    let SpringMass { c, m, g, l, h } = drawn[3].system.as_ref().map(|x| x.decimal(20, Round::Nearest));
+    let (answers, missing) = read_table(&format!("{own}stiff-2,{c},{m},{g},{l},{h},0,0")).unwrap();
+    assert_eq!((&answers[0].0, ids(&missing)), (&drawn[3], "contact-1 contact-2 stiff-1".to_string()));
     let json = "{\"id\": \"contact-1\", \"error\": \"no\"}\n{\"id\": \"contact-2\", \"deflection\": null, \"contact_force\": 1}";
     let (answers, missing) = read_table(json).unwrap();
     assert_eq!((answers.len(), ids(&missing)), (2, "stiff-1 stiff-2".to_string()));
     assert_eq!(answers[0].1, Reply::Refused("no".to_string()));
+}
+
+/// A table that is too long is refused, and not cut off.
+#[test]
+fn a_table_has_at_most_a_number_of_bytes() {
+    let path = std::env::temp_dir().join(format!("contact-table-{}", std::process::id()));
+    std::fs::write(&path, "id\n1").unwrap();
+    let read = |most: u64| text(path.to_str().unwrap(), most);
+    assert_eq!(
+        (read(4), read(3)),
+        (Ok("id\n1".to_string()), Err("must have no more than 3 bytes".to_string()))
+    );
+    std::fs::remove_file(path).unwrap();
 }

@@ -155,6 +155,7 @@ fn a_timeout_reports_the_last_output() {
         ("echo hello; echo \"{'id': 'a'}\"", "not a JSON object: {'id': 'a'}"),
         (":", "nothing on stdout; it may not flush its output"),
         ("printf '{\"id\": \"a\"}'", "without a line break: {\"id\": \"a\"}"),
+        ("echo one; echo", "not a JSON object: one"),
         ("echo one; printf 'two three'", "without a line break: two three"),
         ("printf o; sleep 0.1; printf 'ne\\n'", "not a JSON object: one"),
         ("printf on; sleep 0.1; printf 'e two'", "without a line break: one two"),
@@ -216,4 +217,15 @@ fn a_program_that_cannot_be_started_is_bad_input() {
     let replies = replies(&mut Program::new(&[gone], LONG), 2);
     assert_eq!(replies[0], "answer to 'z' instead of an answer to 'a'");
     assert!(replies[1].starts_with("crashed: cannot be started again: "), "{replies:?}");
+}
+
+/// Of a line that is too long a byte more than allowed is kept, whether it arrives in one block or in two.
+#[test]
+fn the_rest_of_a_long_line_is_dropped() {
+    let block = vec![b'x'; reply::MAX_LINE_BYTES];
+    for blocks in [2, 3] {
+        let mut lines = Lines::of(std::sync::mpsc::channel().1);
+        (0..blocks).for_each(|_| lines.add(&block));
+        assert_eq!(lines.unfinished.len(), reply::MAX_LINE_BYTES + 1);
+    }
 }
