@@ -656,7 +656,7 @@ fn a_lagging_force_is_distinguished() {
 #[test]
 fn nothing_else_is_named() {
     type Change = fn(&Problem, Exact, Exact) -> [Exact; 2];
-    let changes: [(&str, Change); 7] = [
+    let changes: [(&str, Change); 8] = [
         ("one slight error", |problem, u, n| {
             [u * number(if problem.id == "contact-1" { "1.000005" } else { "1" }), n]
         }),
@@ -680,6 +680,10 @@ fn nothing_else_is_named() {
                 [u, (m * g - c * u).max(0.0).min((m * g).abs())].map(|x| x.to_exact().unwrap())
             },
         ),
+        ("forces without contact", |problem, u, n| {
+            let off = &problem.system.h * &problem.system.m;
+            [u, if n.is_zero() { off } else { n }]
+        }),
         ("errors that grow from below the tolerance to above it", |problem, u, n| {
             [u, n * (Exact::from(1) + &problem.system.h * number("0.001"))]
         }),

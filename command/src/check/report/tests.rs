@@ -69,6 +69,9 @@ fn a_condition_is_described_by_a_state_or_by_each_quantity_that_fits() {
     let count = in_contact.summary().wrong;
     let text = format!("The {count} wrong answers are to all {count} systems in contact. ");
     assert_says(&in_contact, &text);
+    let grazing = wrong_where(&all(), |system| system::reaction(system) == number("0"));
+    let count = grazing.summary().wrong;
+    assert_says(&grazing, &format!("The {count} wrong answers are to systems with R = 0. "));
 
     let more = "More cases may tell which of these matters.";
     let is_stiff = |system: &SpringMass<Exact>| system.c > number("1000");
