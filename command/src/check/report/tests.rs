@@ -160,12 +160,14 @@ fn what_is_carried_over_is_reported() {
 
 #[test]
 fn errors_that_do_not_grow_are_reported() {
-    let both = report(&all(), |problem| {
+    let mut both = report(&all(), |problem| {
         let part = number(if problem.id.len().is_multiple_of(2) { "1" } else { "0.7" });
         let exact = problem.solution();
         Answer::new(exact.deflection + number("1e-6") * &part, exact.contact_force + number("1e-3") * part)
     });
     assert_says(&both, "the largest is 1e-6 m of u, 0.001 N of N. ");
+    both.absolute_bounds = [None, Some(number("1e-3")), Some(number("2e-3"))];
+    assert_says(&both, "the largest is 0.001 N of N. ");
 }
 
 /// Three penalties, in equilibrium.
@@ -208,7 +210,13 @@ fn mistakes_with_the_same_results_are_named() {
     let of_less = |problem: &Problem| right(&Problem { penalty: Some(number("1e4")), ..problem.clone() });
     let text = "Each of 3 mistakes explains all 140 answers: ε is 0.01 times the right value; ε is always 10000; -990000 is \
                 added to ε. More";
-    assert_says(&report(&asked, of_less), text);
+    let mut three = report(&asked, of_less);
+    assert_says(&three, text);
+    // Four are named, and of five as many.
+    three.diagnosis.push(three.diagnosis[0].clone());
+    assert!(!said(&three).contains('…'));
+    three.diagnosis.push(three.diagnosis[0].clone());
+    assert_says(&three, "; …. More");
 }
 
 /// The report on a right program contains only what was tested: families, systems, and the smallest |R| among
