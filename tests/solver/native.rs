@@ -39,6 +39,10 @@ fn native_f64_has_the_values_and_texts_of_f64() {
     for x in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
         assert_eq!((Native(x).to_exact(), Native(x).text()), (x.to_exact(), x.text()));
     }
+    // A number of more than 19 digits has a power of ten, in f32 of more than ten.
+    assert_eq!([1e18, 1e19, 1e22].map(|x| Native(x).text()), ["1000000000000000000", "1e19", "1e22"]);
+    assert_eq!([1e9f32, 1e10].map(|x| Native(x).text()), ["1000000000", "1e10"]);
+    assert_eq!(Native(1.5).to_string(), "1.5");
     let (format, f64) = (Native(0.5).number_system(), NumberSystem::F64);
     assert_eq!((format, Native(0.5f32).number_system()), (f64, NumberSystem::F32));
 }
