@@ -168,6 +168,22 @@ mod tests {
     }
 
     #[test]
+    fn only_zeros_of_differentiation_are_removed() {
+        let [a, x] = ["a", "x"].map(|name| Tree::symbol(name));
+        let [constant, variable] = [Dual::constant(a), Dual::variable(x.clone())];
+        for derivative in [&constant * &variable, &variable * &constant, -&constant * &variable] {
+            simplified(&derivative.derivative).visit(&mut |tree| {
+                let has_zero = match tree.op() {
+                    Op::Add(a, _) => a.is_zero(),
+                    op => op.operands().any(Tree::is_zero),
+                };
+                assert!(!has_zero, "{tree:?}");
+            });
+        }
+        assert!(matches!(simplified(&(Tree::from(0) * x)).op(), Op::Mul(..)));
+    }
+
+    #[test]
     fn brackets_follow_the_precedence_of_coq() {
         let [a, b, c] = ["a", "b", "ε₄"].map(|name| Tree::symbol(name));
         assert_eq!(text(&(&a - &(&b - &c))), "a - (b - eps4)");
