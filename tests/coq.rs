@@ -114,6 +114,19 @@ fn every_theorem_states_its_claim() {
 }
 
 #[test]
+fn the_variable_of_a_limit_is_bound_there_only() {
+    let files = coq().files();
+    let said = of_claims(&files).flat_map(|file| file.text.split("\nProof."));
+    let limits: Vec<_> = said.filter_map(|text| text.rsplit_once("is_lim (fun ")).collect();
+    for (before, limit) in &limits {
+        let start = before.rfind("\nLemma ").max(before.rfind("\nTheorem ")).unwrap();
+        let variable = words(limit).next().unwrap();
+        assert!(words(&before[start..]).all(|word| word != variable), "{}{variable}", &before[start..]);
+    }
+    assert!(limits.len() > 10, "{} limits", limits.len());
+}
+
+#[test]
 fn every_function_is_a_definition() {
     let text = definitions_text();
     let definitions = named(&text, "Definition");

@@ -69,12 +69,11 @@ impl Induction<'_, '_> {
     fn recursion(&self) -> String {
         let Sequence { start, step, .. } = self.sequence;
         let members = tuple(MEMBERS[..start.len()].iter().map(|name| ascii(name)));
-        let pattern = if start.len() > 1 { format!("'{members}") } else { members };
         let (name, binders) = (&self.name, binders(self.theorem.variables.iter().copied()));
         let kind = vec!["R"; start.len()].join(" * ");
         format!(
             "\nFixpoint {name}{binders} (n : nat) : {kind} :=\n  match n with\n  | O => {}\n  | S n =>\n    \
-             let {pattern} := {} in\n    {}{}\n  end.\n",
+             let '{members} := {} in\n    {}{}\n  end.\n",
             self.tuple(start),
             self.member(),
             self.computed(),

@@ -286,5 +286,8 @@ mod tests {
         let [a, b] = ["a", "b"].map(|name| Tree::symbol(name));
         let message = reason(&positive("", (&a - &b).positive_part() + &b));
         assert!(message.ends_with("where s₁ ≥ 0 in one case of the proof"), "{message}");
+        let given = above_zero((&a - &b).positive_part() - &b);
+        let message = reason(&positive("", &a - Tree::from(2) * &b - Tree::from(1)).assuming([&given]));
+        assert!(message.ends_with("where s₂ = ⟨a − b⟩ − b > 0"), "{message}");
     }
 }

@@ -227,6 +227,13 @@ fn each_part_of_a_proof_is_a_line() {
         order[3],
         "s₂ = 2ᵖ b + a e₂ + b e₂ + b − a e₁ ≥ 0, as fl(a + b) ≥ fl(a), since rounding is monotone"
     );
+    let decay = limit("", &u * (-&u).exp(), &u, 0, Rate::Equal(&u * (-&u).exp()));
+    assert_eq!(lines(decay, &[&u])[2], "  it tends to 0 by its degrees in u, as its exponentials decay");
+    let other = &a / &u + (-&u).exp() - (-&u).exp();
+    let other = limit("", other.clone(), &u, 0, Rate::Equal(other));
+    assert_eq!(lines(other, &[&u])[2], "  it tends to 0 by its degrees in u");
+    let size = lines(equal("", u.abs(), &u), &[&u]);
+    assert_eq!(size, ["s₁ = |u| − u = 0, as |x| is x or −x", "the difference is s₁ = 0"]);
     let tends = limit("", &a * &u / (&u + &b), &u, &a, Rate::Equal(-&a * &b / (&u + &b)));
     assert_eq!(
         lines(tends, &[&b, &u])[..4],
