@@ -443,6 +443,16 @@ mod tests {
         assert_eq!(quotient.replace(&Monomial::of(0), &v.into()), quotient);
     }
 
+    /// With u = v/w, u² + v is (v² + v w²)/w².
+    #[test]
+    fn a_monomial_is_replaced_by_a_quotient() {
+        let [u, v, w] = [0, 1, 2].map(Poly::variable);
+        let by = Ratio::from(v.clone()).checked_div(&w.clone().into()).unwrap();
+        let replaced = (&u * &u + &v).replace(&Monomial::of(0), &by);
+        let expected = Ratio::from(&v * &v + &v * &w * &w).checked_div(&(&w * &w).into());
+        assert_eq!(Some(replaced), expected);
+    }
+
     /// Sums have the larger of two denominators, one of which divides the other, or else their product.
     #[test]
     fn quotients_are_added_and_multiplied() {
