@@ -139,8 +139,9 @@ fn each_mistake_has_its_name() {
             augmented(s, 30, 1e3, true)
         }),
     ];
+    let all = problems(1, 3, Family::ALL);
     for (name, change) in table {
-        let report = changed(|problem, u, n| change(&problem.system, u, n));
+        let report = changed_in(&all, |problem, u, n| change(&problem.system, u, n));
         assert_eq!(names(&report).join("; "), name, "{:?}", report.diagnosis);
         assert!(!report.holds() && report.conditions.is_empty(), "{name}");
     }
