@@ -219,7 +219,7 @@ fn a_program_that_cannot_be_started_is_bad_input() {
     assert!(replies[1].starts_with("crashed: cannot be started again: "), "{replies:?}");
 }
 
-/// Of a line that is too long a byte more than allowed is kept, whether it arrives in one block or in two.
+/// Of a line that is too long a byte more than allowed is kept, whether it arrives in two blocks or in three.
 #[test]
 fn the_rest_of_a_long_line_is_dropped() {
     let block = vec![b'x'; reply::MAX_LINE_BYTES];
