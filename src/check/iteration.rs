@@ -53,7 +53,7 @@ pub(super) fn common_error(program: &Program, is_right: bool, answers: &[&Observ
         })
     };
     let is_similar = 4 * count(&|answer, both| (0..2).any(|i| shows(answer, both, i))) >= 3 * all.len();
-    // Where either state is possible, the closer one may have another error.
+    // Where either state is possible, the answer may be in the other one.
     let in_force = || count(&|answer, both| answer.state.is_some() && shows(answer, both, 1)) >= INFORMATIVE;
     let holds = is_similar
         && [State::Contact, State::Separated].into_iter().all(|state| in_state(state) >= INFORMATIVE)
