@@ -93,6 +93,7 @@ fn the_command_can_be_checked_by_itself() {
         if let Some(name) = diagnosis {
             assert_eq!(diagnosed(&report)[0], name);
             for row in report["families"].as_array().unwrap() {
+                assert_eq!(row["counterexample"].is_null(), row["verdict"] != "wrong", "{row:#}");
                 let answer = &row["counterexample"]["answer"];
                 let has_answer = answer["deflection"].is_string() && answer["contact_force"].is_string();
                 assert_eq!(has_answer, row["verdict"] == "wrong", "{row:#}");
