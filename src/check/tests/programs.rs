@@ -45,7 +45,7 @@ fn every_edit_is_named() {
     for problems in [default_problems(), with_penalties(default_problems())] {
         let all = Reference::of(&problems).edits();
         let all_results: Vec<_> = all.iter().map(|mistake| results(mistake, None)).collect();
-        for (i, mistake) in sample(&all, 360).enumerate() {
+        for (i, mistake) in sample(&all, 240).enumerate() {
             let in_f64 = i % 2 == 1;
             let report = run(&problems, |problem| match in_f64 {
                 true => answer_in_f64(&mistake.program, problem),
