@@ -86,8 +86,8 @@ impl<'a> Output<'a> {
     }
 
     fn factor(&self) -> Option<Deviation> {
-        let of_some = self.numbers.iter().filter(|number| !number.exact.is_zero());
-        let largest = of_some.max_by_key(|number| number.exact.abs() / number.scale)?;
+        let nonzero = self.numbers.iter().filter(|number| !number.exact.is_zero());
+        let largest = nonzero.max_by_key(|number| number.exact.abs() / number.scale)?;
         let is_clear = self.is_clear(|number| (number.number - number.exact).abs());
         is_clear.then(|| Deviation::Factor(largest.number / largest.exact))
     }
