@@ -2,8 +2,13 @@
 
 use super::algebra::{Poly, Ratio};
 use super::rules::{SignCertificate, SignEnv};
+use crate::number::Ball;
 use crate::proof::check::Sign;
+use num_traits::Zero;
 use oorandom::Rand32;
+use rug::Rational;
+use std::cmp::Ordering;
+use std::ops::{Add, Mul};
 
 /// Maximum number of nested applications of rule 4, each to another symbol.
 const MAX_ENDS: u32 = 6;
@@ -26,22 +31,29 @@ pub fn sign(of: &Poly, known: &SignEnv) -> Option<SignCertificate> {
 /// Number of points that [`has_both_signs`] tries.
 const POINTS: u32 = 12;
 
-/// Returns `true` if floats find values of both signs of a polynomial, so that no rule can find its sign.
+/// Returns `true` if a polynomial has values of both signs, so that no rule can find its sign: balls of floats have them
+/// at random points.
 fn has_both_signs(of: &Poly, known: &SignEnv) -> bool {
     let (mut random, variables) = (Rand32::new(1), of.variables());
-    let signs = (0..POINTS).filter_map(|_| {
+    let terms: Vec<_> = of.terms().map(|(m, q)| (m, enclosing(q))).collect();
+    let signs = (0..POINTS).map(|_| {
         let point: Vec<_> = variables.iter().map(|x| (*x, random_value(&mut random, *x, known))).collect();
-        let terms = of.terms().map(|(m, q)| {
-            point.iter().fold(q.to_f64(), |value, (x, at)| value * at.powi(m.degree(*x).into()))
+        let values = terms.iter().map(|(m, q)| {
+            let powers = point.iter().map(|(x, at)| Ball::point(at.powi(m.degree(*x).into())));
+            powers.fold(q.clone(), Mul::mul)
         });
-        let (sum, sizes) = terms.fold((0.0, 0.0), |(sum, sizes), term| (sum + term, sizes + term.abs()));
-        (sum.abs() > 1e-9 * sizes).then_some(sum > 0.0)
+        values.fold(Ball::zero(), Add::add).sign()
     });
     let signs: Vec<_> = signs.collect();
-    signs.contains(&true) && signs.contains(&false)
+    [Ordering::Less, Ordering::Greater].iter().all(|sign| signs.contains(&Some(*sign)))
 }
 
-/// Returns a random value of a symbol, with its known sign.
+/// Returns a ball that contains a number.
+fn enclosing(q: &Rational) -> Ball<f64> {
+    Ball::enclosing(&0.0, &q.clone().into()).unwrap_or_else(|_| Ball::entire())
+}
+
+/// Returns a random value of a symbol, with its known sign; its powers are floats.
 fn random_value(random: &mut Rand32, x: usize, known: &SignEnv) -> f64 {
     let size = if known.is_unit(x) { 1.0 } else { 2.0_f64.powi(random.rand_range(0..13) as i32 - 6) };
     let is_free = known.get(x) == Sign::ANY || known.is_unit(x);
