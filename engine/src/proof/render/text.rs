@@ -85,6 +85,12 @@ mod tests {
     use crate::number::Exact;
 
     #[test]
+    fn signs_are_relations_to_zero() {
+        let signs = [Sign::NEGATIVE, Sign::NON_POSITIVE, Sign::ZERO, Sign::NON_NEGATIVE, Sign::POSITIVE];
+        assert_eq!(signs.map(sign_text), ["< 0", "≤ 0", "= 0", "≥ 0", "> 0"]);
+    }
+
+    #[test]
     fn integers_of_any_size_are_written_exactly() {
         let (large, registry): (Integer, _) = (Integer::from(1) << 80, Registry::default());
         for n in [large.clone(), -1 - large, Integer::ZERO, Integer::from(-7)] {
