@@ -99,8 +99,10 @@ impl Context {
     /// exceeds its effort.
     pub(super) fn reduce(&self, value: &Ratio) -> Ratio {
         self.substitutions.iter().fold(value.clone(), |value, (pivot, by)| {
-            let is_replaced = value.contains(pivot) && self.signs.spend(value.num(), by.num()).is_some();
-            if is_replaced { value.replace(pivot, by) } else { value }
+            match self.signs.spend(value.num(), by.num()) {
+                Some(()) => value.replace(pivot, by),
+                None => value,
+            }
         })
     }
 
@@ -175,9 +177,6 @@ impl Context {
     ) {
         let mut value = self.reduce(value);
         let usage = match sign {
-            _ if self.direct_sign(value.clone()).is_some_and(|signed| signed.sign().implies(sign)) => {
-                AssumptionUse::Unused
-            }
             Sign::NEGATIVE | Sign::NON_POSITIVE => {
                 let fact = AssumedFact { scale: -fact.scale, ..fact };
                 return self.assume(hypothesis, &-value, sign.negated(), fact);
@@ -274,15 +273,6 @@ impl Context {
         let fact = AssumedFact::new(fact, Vec::new());
         self.add(None, value.clone(), fact, AssumptionUse::Size { pivot, size, factor });
         true
-    }
-
-    /// Returns `true` if the absolute value of a quantity, or of its negative, was replaced.
-    pub(super) fn has_size(&self, value: &Ratio) -> bool {
-        self.assumptions.iter().any(|assumption| {
-            let [difference, sum] = [&assumption.value - value, &assumption.value + value];
-            let is_size = matches!(assumption.usage, AssumptionUse::Size { .. });
-            is_size && (self.reduce(&difference).is_zero() || self.reduce(&sum).is_zero())
-        })
     }
 
     /// Returns the next symbol of a kind.

@@ -1,12 +1,12 @@
 //! The search for certificates.
 
 use super::ProofError;
-use super::algebra::{Monomial, Poly, Ratio};
+use super::algebra::{FIRST_SLACK, Monomial, Poly, Ratio};
 use super::assumption::{AssumedFact, AssumptionUse, SignedRatio};
 use super::context::Context;
-use super::dictionary::{poly, polynomial};
+use super::dictionary::polynomial;
 use super::symbol::Symbol;
-use crate::proof::check::{Certificate, Knowledge, MAX_VARIABLES, Polynomial, Step};
+use crate::proof::check::{Certificate, Knowledge, Polynomial, Step};
 
 /// Maximum nesting of lemmas.
 const MAX_DEPTH: u32 = 4;
@@ -35,7 +35,7 @@ pub struct Finder<'f, 'p> {
     pub proof: &'f mut Steps<'p>,
     /// The facts in it.
     facts: Vec<usize>,
-    /// The nesting of the certificate in others.
+    /// How many lemmas may be nested in the certificate.
     depth: u32,
 }
 
@@ -52,11 +52,11 @@ impl<'f, 'p> Finder<'f, 'p> {
         signed: &SignedRatio,
         proof: &'f mut Steps<'p>,
     ) -> Result<()> {
-        Finder::new(guide, proof, 0).shown(of, den, signed).map(|_| ())
+        Finder::new(guide, proof, MAX_DEPTH).shown(of, den, signed).map(|_| ())
     }
 
-    /// Returns the variable of a fact, which becomes part of the certificate. If there are too many, the checker
-    /// refuses it.
+    /// Returns the variable of a fact, which becomes part of the certificate. If there are too many, it is one that
+    /// no certificate can have.
     pub fn variable(&mut self, fact: usize) -> Poly {
         let index = self.facts.iter().position(|other| *other == fact);
         let i = index.unwrap_or_else(|| {
@@ -64,29 +64,19 @@ impl<'f, 'p> Finder<'f, 'p> {
             self.facts.len() - 1
         });
         let first = self.proof.state.sequent.table.atoms.len();
-        Poly::variable((first + i).min(MAX_VARIABLES - 1))
-    }
-
-    /// Returns the polynomial of a fact: its number if it is one.
-    pub fn fact(&mut self, i: usize) -> Poly {
-        match self.proof.state.facts.get(i) {
-            Ok((of, _)) if of.has_only(|_| false) => poly(of),
-            _ => self.variable(i),
-        }
+        Poly::variable((first + i).min(FIRST_SLACK))
     }
 
     /// Returns the polynomial of a fact that is shown about a value in original variables.
     pub fn lemma(&mut self, value: &Poly) -> Result<Poly> {
-        if self.depth >= MAX_DEPTH {
-            return Err("too deep".into());
-        }
+        let depth = self.depth.checked_sub(1).ok_or("too deep")?;
         let state = &self.proof.state;
         let of = polynomial(value).ok_or("a lemma")?;
         let fact = match state.facts.strict(&of) {
             Some(fact) => fact,
             None => {
                 let signed = self.guide.sign(self.guide.reduced(&of)).ok_or("the sign of a lemma")?;
-                Finder::new(self.guide, self.proof, self.depth + 1).shown(&of, &[], &signed)?
+                Finder::new(self.guide, self.proof, depth).shown(&of, &[], &signed)?
             }
         };
         Ok(self.variable(fact))
@@ -107,9 +97,9 @@ impl<'f, 'p> Finder<'f, 'p> {
 
     /// Returns the quantity of an assumption as a quotient of facts.
     pub fn assumed(&mut self, AssumedFact { fact, den, scale }: &AssumedFact) -> Result<Ratio> {
-        let mut value = scale * Ratio::from(self.fact(*fact));
+        let mut value = scale * Ratio::from(self.variable(*fact));
         for i in den {
-            value = value.checked_div(&self.fact(*i).into()).ok_or("a zero fact")?;
+            value = value.checked_div(&self.variable(*i).into()).ok_or("a zero fact")?;
         }
         Ok(value)
     }

@@ -26,7 +26,7 @@ impl Finder<'_, '_> {
         let form = Ratio::from(right * left_of_den).checked_div(&(right_of_den * left).into());
         let mut form = form.ok_or("a zero denominator")?;
         for i in rest {
-            form = form * Ratio::from(self.fact(i));
+            form = form * Ratio::from(self.variable(i));
         }
         let Some(multiple) = &signed.subtracted else { return Ok(form) };
         let retained = self.guide.assumptions[multiple.of].fact.as_ref().ok_or("a retained quantity")?;

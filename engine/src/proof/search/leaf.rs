@@ -357,7 +357,7 @@ impl<'a> Search<'a> {
         let quotient = self.proof.state.value(of)?;
         let value = self.known.reduced_quotient(&quotient, &self.proof.state);
         let next = self.proof.state.facts.all.len();
-        let is_free = !self.known.has_size(&value) && self.known.sign(value.clone()).is_none();
+        let is_free = self.known.sign(value.clone()).is_none();
         let law = if is_free && self.known.assume_size([size, factor], &value, next) {
             self.sizes.push((self.position, value));
             Law::AbsoluteValue(of)
