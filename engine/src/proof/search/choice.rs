@@ -197,6 +197,7 @@ mod tests {
         assert_eq!(found(error(0) - n(1)), Some(Sign::NON_POSITIVE));
         assert_eq!(found(x("u") * x("u") * (n(2) + error(0))), Some(Sign::NON_NEGATIVE));
         assert_eq!(found(x("a") * error(0) - n(2) * x("a") - x("b")), Some(Sign::NEGATIVE));
+        assert_eq!(found(n(2) * x("n") * error(0) - x("n")), None);
         // The other terms are too small, or of unknown sign.
         assert_eq!(found(x("a") + x("b") * error(0)), None);
         assert_eq!(found(n(3) + n(2) * error(0) + n(2) * error(1)), None);

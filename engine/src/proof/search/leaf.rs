@@ -25,8 +25,8 @@ pub struct Search<'a> {
     pub sizes: Vec<(usize, Ratio)>,
     /// The number of hypotheses so far.
     pub position: usize,
-    /// The exponentials that were met, as variables.
-    pub exponentials: Vec<usize>,
+    /// The exponentials that were met, each with its reciprocal, as variables.
+    pub exponentials: Vec<[usize; 2]>,
     /// Their laws that may still be listed.
     laws: VecDeque<Law>,
     /// The absolute values that were met, as variables.
@@ -91,7 +91,6 @@ impl<'a> Search<'a> {
         use Op::*;
         let table = &self.sequent().table;
         match (table.op(a)?, table.op(b)?) {
-            _ if a == b => Ok(()),
             (Rounded(c), Rounded(d)) => {
                 self.orders(c, d)?;
                 // fl(a) ≥ fl(b) follows from a ≥ b.
@@ -246,13 +245,12 @@ impl<'a> Search<'a> {
             }
             let Ok(number) = self.proof.add(Step::Law(law)) else { continue };
             let fact = self.proof.state.facts.get(number)?;
-            match bounded.and_then(|x| self.exponentials.iter().position(|y| *y == x)) {
+            match bounded.and_then(|x| self.exponentials.iter().find(|[of, _]| *of == x)) {
                 None => self.known.equate(number, &fact.0),
-                Some(i) => {
+                Some([_, reciprocal]) => {
                     // Its product with the reciprocal bounds that one.
-                    let reciprocal = Poly::variable(self.exponentials[i ^ 1]);
                     self.known.retain(number, fact, Poly::constant(1));
-                    self.known.retain(number, fact, reciprocal);
+                    self.known.retain(number, fact, Poly::variable(*reciprocal));
                 }
             }
             return Ok(true);
@@ -289,9 +287,6 @@ impl<'a> Search<'a> {
         let mut rest = poly(of);
         let mut candidates: Vec<Poly> =
             rest.common_monomial().powers().map(|(x, _)| Poly::variable(x)).collect();
-        let facts = self.proof.state.facts.all.iter();
-        let strict = facts.filter(|(of, sign)| sign.is_strict() && of.terms().len() > 1);
-        candidates.extend(strict.map(|(of, _)| poly(of)));
         candidates.extend(self.known.largest_errors(&rest));
         let mut factors = Vec::new();
         for factor in candidates {
@@ -328,15 +323,15 @@ impl<'a> Search<'a> {
         let reciprocal = ops.position(|op| op == Op::Neg(exponent)).ok_or(Refusal::Unknown)?;
         let pair = [exponent, reciprocal].map(|of| table.variable(Atom::Exponential(of)));
         let [x, y] = [pair[0]?, pair[1]?];
-        if self.exponentials.contains(&x) {
+        if self.exponentials.contains(&[x, y]) {
             return Ok(());
         }
-        self.exponentials.extend([x, y]);
-        let all = &self.exponentials;
+        self.exponentials.extend([[x, y], [y, x]]);
+        let all = self.exponentials.iter().map(|[z, _]| *z);
         for x in [x, y] {
-            let pairs = all.iter().take_while(|z| **z != x).map(|z| vec![*z, x]);
+            let pairs = all.clone().take_while(|z| *z != x).map(|z| vec![z, x]);
             for left in iter::once(vec![x]).chain(pairs) {
-                let others = all.iter().filter(|z| !left.contains(z)).map(|z| vec![*z]);
+                let others = all.clone().filter(|z| !left.contains(z)).map(|z| vec![z]);
                 let laws = iter::once(Vec::new()).chain(others);
                 self.laws.extend(laws.map(|right| Law::Exponents { left: left.clone(), right }));
             }

@@ -13,7 +13,7 @@ impl Search<'_> {
 
     /// Shows what the limit of a quantity requires.
     pub fn limit(&mut self, of: &Quotient) -> Result<()> {
-        for y in self.exponentials.clone() {
+        for [y, _] in self.exponentials.clone() {
             if of.num.degree(y) > 0 && self.sequent().varies(y) {
                 let exponent = self.proof.state.exponent(y)?;
                 self.show_leading(&exponent)?;

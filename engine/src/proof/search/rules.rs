@@ -160,7 +160,8 @@ impl SignCertificate {
 fn size(m: &Monomial, q: &Rational, known: &SignEnv) -> Option<(Monomial, Rational)> {
     let rest = m.only(|x| !known.is_unit(x));
     let sign = sign_of_monomial(&rest, known);
-    let size = q.clone().abs() * if sign.implies(Sign::NON_POSITIVE) { -1 } else { 1 };
+    let size = q.clone().abs();
+    let size = if sign.implies(Sign::NON_POSITIVE) { -size } else { size };
     (sign != Sign::ANY).then_some((rest, size))
 }
 
