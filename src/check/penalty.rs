@@ -30,10 +30,10 @@ impl ApparentPenalty {
                 continue;
             }
             // The error of equilibrium is small relative to c p, and thus to that of N, or due to the rounding of p. Other
-            // rounding errors are small relative to c p.
+            // rounding errors are small relative to c p. If p < 0 < N, this is negative.
             let most = decimal(1, -2) * &system.c * &p + Exact::from(4) * rounding * n / &p;
             let is_balanced = contact::equilibrium(system, u, n).abs() <= most;
-            if p <= Exact::zero() || *n <= Exact::zero() || !is_balanced {
+            if *n <= Exact::zero() || !is_balanced {
                 return None;
             }
             penalties.push([n / &p, n / &p / &system.c]);

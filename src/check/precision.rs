@@ -44,16 +44,7 @@ impl Rounding {
 
     /// Rounds the nearest float, as most programs do.
     fn of_float(self, x: &Exact) -> Option<Exact> {
-        let float = x.to_f64().ok()?;
-        match self {
-            Rounding::Single => self.of(x),
-            Rounding::Decimals(n) => format!("{float:.n$}").parse().ok(),
-            Rounding::Cut(n) => {
-                let unit = 10_f64.powi(n as i32);
-                ((float * unit).trunc() / unit).to_exact().ok()
-            }
-            Rounding::Digits(n) => format!("{float:.*e}", n - 1).parse().ok(),
-        }
+        self.of(&x.to_f64().ok()?.to_exact().ok()?)
     }
 
     /// Returns `true` if right programs that round these parameters give all answers: the numbers themselves, or
