@@ -279,7 +279,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Shows that the factors of a polynomial are not 0: symbols, known facts, errors 2ᵖ + 1 + e, and the rest.
+    /// Shows that the factors of a polynomial are not 0: symbols, errors 2ᵖ + 1 + e, and the rest.
     fn factors(&mut self, of: &Polynomial) -> Result<()> {
         if of.is_zero() {
             return Err(Refusal::NotStrict.into());
@@ -290,7 +290,7 @@ impl<'a> Search<'a> {
         candidates.extend(self.known.largest_errors(&rest));
         let mut factors = Vec::new();
         for factor in candidates {
-            while let Some(quotient) = rest.checked_div(&factor).filter(is_integral) {
+            while let Some(quotient) = rest.checked_div(&factor) {
                 rest = quotient;
                 factors.push(factor.clone());
             }
@@ -323,7 +323,7 @@ impl<'a> Search<'a> {
         let reciprocal = ops.position(|op| op == Op::Neg(exponent)).ok_or(Refusal::Unknown)?;
         let pair = [exponent, reciprocal].map(|of| table.variable(Atom::Exponential(of)));
         let [x, y] = [pair[0]?, pair[1]?];
-        if self.exponentials.contains(&[x, y]) {
+        if self.exponentials.iter().any(|[of, _]| *of == x) {
             return Ok(());
         }
         self.exponentials.extend([[x, y], [y, x]]);
@@ -370,8 +370,4 @@ impl<'a> Search<'a> {
 /// Returns `true` if no other sign implies this one.
 fn is_definite(sign: Sign) -> bool {
     sign.is_strict() || sign == Sign::ZERO
-}
-
-fn is_integral(of: &Poly) -> bool {
-    of.terms().all(|(_, number)| number.is_integer())
 }
