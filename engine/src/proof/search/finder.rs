@@ -35,7 +35,7 @@ pub struct Finder<'f, 'p> {
     pub proof: &'f mut Steps<'p>,
     /// The facts in it.
     facts: Vec<usize>,
-    /// How many lemmas may be nested in the certificate.
+    /// Number of lemmas that may be nested in the certificate.
     depth: u32,
 }
 
