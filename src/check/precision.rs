@@ -44,7 +44,15 @@ impl Rounding {
 
     /// Rounds the nearest float, as most programs do.
     fn of_float(self, x: &Exact) -> Option<Exact> {
-        self.of(&x.to_f64().ok()?.to_exact().ok()?)
+        let float = x.to_f64().ok()?;
+        match self {
+            // The product with the power of ten is rounded before it is cut.
+            Rounding::Cut(n) => {
+                let unit = 10_f64.powi(n as i32);
+                ((float * unit).trunc() / unit).to_exact().ok()
+            }
+            _ => self.of(&float.to_exact().ok()?),
+        }
     }
 
     /// Returns `true` if right programs that round these parameters give all answers: the numbers themselves, or

@@ -165,6 +165,17 @@ fn decimals_are_cut_off_exactly() {
     assert_eq!(names(&report), ["l and H are cut off after 2 decimals"]);
 }
 
+/// 0.35 · 100 is 35 in f64, though the float is below 0.35; 1.15 · 100 is below 115.
+#[test]
+fn decimals_are_cut_off_as_by_a_program_in_floats() {
+    let all = [("0.35", "0.4012"), ("1.15", "1.2034"), ("0.7", "0.7561")]
+        .map(|(l, h)| problem(l, Family::Contact, ["100.37", "1", "10", l, h]));
+    let report = changed_in(&all, |problem, _, _| {
+        with_lengths(&problem.system, |x| ((x.to_f64().unwrap() * 100.0).trunc() / 100.0).to_exact().unwrap())
+    });
+    assert_eq!(names(&report), ["l and H are cut off after 2 decimals"]);
+}
+
 /// Two wrong answers of few digits show nothing, whatever the number of right ones.
 #[test]
 fn right_answers_of_few_digits_show_nothing() {
