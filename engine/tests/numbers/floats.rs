@@ -9,6 +9,7 @@ use num_traits::{One, Zero};
 use proptest::prelude::*;
 use provable::number::{Exact, Exponential, Field, Logarithm, Mpfr, Native, PositivePart, Real, ToExact};
 use rug::{Float, Rational};
+use std::fmt::Debug;
 
 macro_rules! machine_floats {
     ($($Name:ident $float:ty, $format:ident, $convert:expr;)*) => {$(
@@ -81,6 +82,21 @@ fn no_float_lies_between_neighbours<S: Floats<Number = N>, N: Real + ToExact + '
         Ok(())
     });
     below_the_largest.assert_one_in(2, "neighbours looked at");
+}
+
+/// Tests all finite floats of a format: the bits of those without a sign have the same order.
+fn neighbours_have_adjacent_bits<T: num_traits::Float + Debug>(infinity: u16, float: fn(u16) -> T) {
+    for bits in 0..infinity {
+        let (x, up) = (Native(float(bits)), Native(float(bits + 1)));
+        assert_eq!(x.next_up(), up);
+        assert_eq!((-up).next_up(), -x);
+    }
+}
+
+#[test]
+fn neighbours_of_floats_of_16_bits_have_adjacent_bits() {
+    neighbours_have_adjacent_bits(f16::INFINITY.to_bits(), f16::from_bits);
+    neighbours_have_adjacent_bits(bf16::INFINITY.to_bits(), bf16::from_bits);
 }
 
 fn the_unit_roundoff_bounds_every_rounding<S: Floats<Number = N>, N: Real + ToExact + 'static>() {
