@@ -114,6 +114,14 @@ fn every_theorem_states_its_claim() {
 }
 
 #[test]
+fn lemmas_of_a_part_with_several_goals_have_numbers() {
+    let files = coq().files();
+    for name in ["eq_1_13_limit_rate", "eq_1_16_closed_form_step_1", "eq_1_16_closed_form_step_2"] {
+        assert!(said(&files, "Lemma", name).is_some(), "{name}");
+    }
+}
+
+#[test]
 fn the_variable_of_a_limit_is_bound_there_only() {
     let files = coq().files();
     let said = of_claims(&files).flat_map(|file| file.text.split("\nProof."));
