@@ -491,6 +491,26 @@ mod tests {
         assert_eq!(&a * &more, Poly::unknown());
     }
 
+    /// Returns (uⁿ − 1)(vⁿ − 1)(wⁿ − 1).
+    fn powers_less_one(n: usize) -> Poly {
+        let one = Poly::constant(1);
+        [0, 1, 2].map(Poly::variable).iter().fold(one.clone(), |product, x| {
+            let power = (0..n).fold(one.clone(), |power, _| &power * x);
+            &product * &(power - &one)
+        })
+    }
+
+    /// Each of the n³ terms of the quotient takes seven steps.
+    #[test]
+    fn divisions_have_a_largest_number_of_steps() {
+        let divisor = powers_less_one(1);
+        assert_eq!(
+            powers_less_one(33).checked_div(&divisor).map(|quotient| quotient.terms().len()),
+            Some(33 * 33 * 33)
+        );
+        assert!(powers_less_one(34).checked_div(&divisor).is_none());
+    }
+
     /// Long division requires this order.
     #[test]
     fn multiplication_preserves_the_order_of_monomials() {
