@@ -29,11 +29,12 @@ fn facts_are_factors() {
 fn factors_between_minus_1_and_1_do_not_increase_terms() {
     let [u, v] = ["u", "v"].map(x);
     let given = [Hypothesis::between(&u, -1, 1), Hypothesis::between(&v, -1, 1)];
-    let claim = positive("small", n(4) - n(2) * &u - &v * &v * &u).assuming(&given);
+    let small = |u: &Tree, v: &Tree| n(4) - n(2) * u - v * v * u + n(3) * v * v;
+    let claim = positive("small", small(&u, &v)).assuming(&given);
     let page = Page::of(&claim);
     let [s, t] = ["t₁", "t₂"].map(x);
     // The denominator is 2³: half the length of each interval is 2/2.
-    accept(&claim, &[leaf(2, vec![page.form(n(8) * (n(4) - n(2) * &s - &t * &t * &s))])]);
+    accept(&claim, &[leaf(2, vec![page.form(n(8) * small(&s, &t))])]);
 }
 
 fn identities() -> Vec<Forged> {
