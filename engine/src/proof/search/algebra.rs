@@ -447,10 +447,12 @@ mod tests {
     #[test]
     fn a_monomial_is_replaced_by_a_quotient() {
         let [u, v, w] = [0, 1, 2].map(Poly::variable);
-        let by = Ratio::from(v.clone()).checked_div(&w.clone().into()).unwrap();
-        let replaced = (&u * &u + &v).replace(&Monomial::of(0), &by);
-        let expected = Ratio::from(&v * &v + &v * &w * &w).checked_div(&(&w * &w).into());
-        assert_eq!(Some(replaced), expected);
+        for w in [w, Poly::constant(1)] {
+            let by = Ratio::from(v.clone()).checked_div(&w.clone().into()).unwrap();
+            let replaced = (&u * &u + &v).replace(&Monomial::of(0), &by);
+            let expected = Ratio::from(&v * &v + &v * &w * &w).checked_div(&(&w * &w).into());
+            assert_eq!(Some(replaced), expected);
+        }
     }
 
     /// Sums have the larger of two denominators, one of which divides the other, or else their product.
