@@ -443,7 +443,7 @@ mod tests {
         assert_eq!(quotient.replace(&Monomial::of(0), &v.into()), quotient);
     }
 
-    /// With u = v/w, u² + v is (v² + v w²)/w².
+    /// With u = v/w, u² + v is (v² + v w²)/w², also for w = 1.
     #[test]
     fn a_monomial_is_replaced_by_a_quotient() {
         let [u, v, w] = [0, 1, 2].map(Poly::variable);
